@@ -24,8 +24,9 @@ const JOINT_MOVES = 200;
 
 /**
  * A program of 10,000 poses checked whole: postures, limits, speeds, singular postures, and contact proven along every
- * motion against the robot itself, table, carton and walls of the edge-trace cell: straight moves 2 mm apart, blended like
- * a traced edge, the same with a stop at each pose, and rows that the nearest postures do not get through. Beside it 200 far joint moves between seeded postures.
+ * motion against the robot itself, table, carton and walls of the edge-trace cell: straight moves 2 mm apart, blended
+ * like a traced edge, the same with a stop at each pose, and rows that the nearest postures do not get through. Beside
+ * it 200 far joint moves between seeded postures.
  */
 export function run(): Promise<Figure[]> {
   const cell = edgeTraceCell();
@@ -71,7 +72,10 @@ export function run(): Promise<Figure[]> {
 const MINUTE_S = 60;
 const MINUTE_MARGIN_M = 0.002;
 
-/** A program of a minute in the lab cell, 2 mm kept from everything: joint moves between working places and straight moves over them. */
+/**
+ * A program of a minute in the lab cell, 2 mm kept from everything: joint moves between working places and straight
+ * moves over them.
+ */
 function wholeMinute(robot: Robot, geometry: CellGeometry): Figure[] {
   const laps = traced(robot, 0.002).steps.slice(1);
   const far = jointMoves(robot).steps;
@@ -151,8 +155,9 @@ function traced(robot: Robot, blend_m: number): Program {
 }
 
 /**
- * Rows of nine straight moves that turn the tool by 206°, each begun by a joint move to a pose taught without a posture: the nearest
- * one runs joint 6 into its limit in every row, so that all postures of all poses have to be weighed.
+ * Rows of nine straight moves that turn the tool by 206°, each begun by a joint move to a pose taught without a
+ * posture: the nearest one runs joint 6 into its limit in every row, so that all postures of all poses have to be
+ * weighed.
  */
 function chosen(robot: Robot): Program {
   const row = 10;

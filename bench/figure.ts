@@ -12,7 +12,10 @@ export interface Figure {
   readonly note?: string;
 }
 
-/** A benchmark is a file of this folder that exports `run: Bench`. A peer that is not installed is left out and said on stderr. */
+/**
+ * A benchmark is a file of this folder that exports `run: Bench`. A peer that is not installed is left out and said on
+ * stderr.
+ */
 export type Bench = () => Promise<readonly Figure[]>;
 
 export function figure(name: string, unit: string, values: readonly number[], note?: string): Figure {
@@ -44,7 +47,10 @@ export function settled(calls: number, repeats: number, warmUp: number, call: (i
   return microseconds(calls, repeats, call);
 }
 
-/** How many times garbage was collected in so many calls, after a warm-up that is not counted: the compiler works beside it and is waited for. */
+/**
+ * How many times garbage was collected in so many calls, after a warm-up that is not counted: the compiler works beside
+ * it and is waited for.
+ */
 export async function collections(calls: number, call: (i: number) => void): Promise<number> {
   for (let round = 0; round < 4; round++) {
     for (let i = 0; i < calls / 4; i++) call(i);

@@ -12,14 +12,20 @@ import { collections, figure, settled, type Bench, type Figure } from "./figure.
 import { pinocchioFigures } from "./kinematics-peers.ts";
 import { KR6_ARM } from "./robots/kr6.ts";
 
-/** More inputs than a branch predictor can learn by heart. Many rounds shorter than a time slice: the median then stands even while other processes share the cores. */
+/**
+ * More inputs than a branch predictor can learn by heart. Many rounds shorter than a time slice: the median then stands
+ * even while other processes share the cores.
+ */
 const SETS = 16_384;
 const CALLS = 2000;
 const ROUNDS = 301;
 const WARM_UP = 100;
 const PEER_SETS = 2000;
 
-/** Pose of the flange, and pose with Jacobian, from six joint angles, one thread; with scratch and answer given nothing is allocated. */
+/**
+ * Pose of the flange, and pose with Jacobian, from six joint angles, one thread; with scratch and answer given nothing
+ * is allocated.
+ */
 export const run: Bench = async () => {
   const rx90l = robotById("staubli_rx90l");
   if (!rx90l) throw new Error("The library has no staubli_rx90l.");

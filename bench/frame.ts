@@ -16,10 +16,10 @@ interface Round {
 
 /**
  * Script of the studio per frame on the main thread while the taught example plays (collisions looked at all along, the
- * virtual controller cycling) and while its exported text runs on the twin. Rasterising in software would hide all else and
- * leave two frames a second, so frames are paced at 60 Hz without draw calls where script is measured: processor time of
- * the main thread, with the handing over of WebGL calls in it, and beside it the wall's clock without WebGL calls, which goes
- * on while other processes have the core. Long tasks are counted in frames as they come too.
+ * virtual controller cycling) and while its exported text runs on the twin. Rasterising in software would hide all else
+ * and leave two frames a second, so frames are paced at 60 Hz without draw calls where script is measured: processor
+ * time of the main thread, with the handing over of WebGL calls in it, and beside it the wall's clock without WebGL
+ * calls, which goes on while other processes have the core. Long tasks are counted in frames as they come too.
  */
 export const run: Bench = async () => {
   const studio = await Studio.start();

@@ -50,7 +50,10 @@ export const run: Bench = async () => {
 
 const CYCLE = 30 * HZ;
 const PAUSE = 4 * HZ;
-/** A whole day at 100 Hz on the disk, in files of an hour, cycles of 30 s with an alarm in one of fifty; then any moment of it. */
+/**
+ * A whole day at 100 Hz on the disk, in files of an hour, cycles of 30 s with an alarm in one of fifty; then any moment
+ * of it.
+ */
 async function seeking(robot: Robot, compact: Compact): Promise<Figure[]> {
   const folder = mkdtempSync(join(tmpdir(), "twincell-day-"));
   const port = recordingsFolder(folder);

@@ -26,7 +26,10 @@ import { collections, figure, settled, type Bench, type Figure } from "./figure.
 import { eaikFigures } from "./kinematics-peers.ts";
 import { KR6_ARM } from "./robots/kr6.ts";
 
-/** More inputs than a branch predictor can learn by heart. Many rounds shorter than a time slice: the median then stands even while other processes share the cores. */
+/**
+ * More inputs than a branch predictor can learn by heart. Many rounds shorter than a time slice: the median then stands
+ * even while other processes share the cores.
+ */
 const POSES = 8192;
 const CALLS = 2000;
 const ROUNDS = 301;
@@ -39,9 +42,9 @@ const SEARCH_WARM_UP = 20;
 const MILLION = 1_000_000;
 
 /**
- * Inverse kinematics, all branches of one pose, one thread: the closed form alone, and with every branch put back through
- * forward kinematics of the arm description (refined where the robot's file rounds its right angles) and compared with the pose to
- * 1e-9 (m, rad). `collections` counts how often garbage was collected in a million calls.
+ * Inverse kinematics, all branches of one pose, one thread: the closed form alone, and with every branch put back
+ * through forward kinematics of the arm description (refined where the robot's file rounds its right angles) and
+ * compared with the pose to 1e-9 (m, rad). `collections` counts how often garbage was collected in a million calls.
  */
 export const run: Bench = async () => {
   const library = (id: string): Robot => {

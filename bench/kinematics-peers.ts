@@ -2,7 +2,10 @@ import { identity, linkPoses, flangePose, rotate, type SerialArm } from "@twince
 import { figure, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
-/** Axes and steps from axis to axis in the base, all angles 0; the flange last. What EAIK and pinocchio build the same arm from. */
+/**
+ * Axes and steps from axis to axis in the base, all angles 0; the flange last. What EAIK and pinocchio build the same
+ * arm from.
+ */
 function linesOf(arm: SerialArm): {
   readonly axes: number[][];
   readonly origins: number[][];
@@ -57,7 +60,10 @@ pin.forwardKinematics(model, data, sets[0])
 json.dump({"fk": fk, "jacobian": jacobian, "place": [float(x) for x in (data.oMi[model.njoints - 1] * flange).translation]}, sys.stdout)
 `;
 
-/** The same arm and joint angles through EAIK, all branches, one thread, in its own batch call. Nothing where it does not install. */
+/**
+ * The same arm and joint angles through EAIK, all branches, one thread, in its own batch call. Nothing where it does
+ * not install.
+ */
 export function eaikFigures(name: string, arm: SerialArm, sets: readonly Float64Array[]): Figure[] {
   const answer = pythonPeer("eaik", ["eaik==1.2.2"], EAIK, { ...linesOf(arm), sets: sets.map(q => [...q]) });
   return answer === undefined
@@ -72,7 +78,10 @@ export function eaikFigures(name: string, arm: SerialArm, sets: readonly Float64
       ];
 }
 
-/** The same arm and joint angles through pinocchio, called from Python one by one. Nothing where it does not install. @throws {Error} when its flange stands elsewhere. */
+/**
+ * The same arm and joint angles through pinocchio, called from Python one by one. Nothing where it does not install.
+ * @throws {Error} when its flange stands elsewhere.
+ */
 export function pinocchioFigures(name: string, arm: SerialArm, sets: readonly Float64Array[]): Figure[] {
   const answer = pythonPeer("pinocchio", ["pin==4.1.0"], PINOCCHIO, { ...linesOf(arm), sets: sets.map(q => [...q]) });
   if (answer === undefined) return [];

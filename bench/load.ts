@@ -6,8 +6,9 @@ import { figure, type Bench } from "./figure.ts";
 const ROUNDS = 5;
 
 /**
- * A first visit, everything from this machine: how long until the page can be used (tree, pendant and timeline answer, the
- * program is there) and until the cell is drawn, and what has been loaded by then, gzipped. Nothing is cached between rounds.
+ * A first visit, everything from this machine: how long until the page can be used (tree, pendant and timeline answer,
+ * the program is there) and until the cell is drawn, and what has been loaded by then, gzipped. Nothing is cached
+ * between rounds.
  */
 export const run: Bench = async () => {
   const studio = await Studio.start();

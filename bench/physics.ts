@@ -7,7 +7,10 @@ import { numbersOf, pythonPeer } from "./peer.ts";
 const ROUNDS = 31;
 const STEPS = 500;
 
-/** Engine, cell and program: the conveyor with nine boxes and a UR10e that waits, then the whole program against the clock. */
+/**
+ * Engine, cell and program: the conveyor with nine boxes and a UR10e that waits, then the whole program against the
+ * clock.
+ */
 export const run: Bench = async () => {
   const loading = performance.now();
   const engine = await loadEngine();

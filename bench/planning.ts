@@ -19,8 +19,9 @@ export interface PlanningCell {
 }
 
 /**
- * RRT-Connect of OMPL with the contact test of coal on the same meshes and pairs, called through pinocchio in one call a posture. Its
- * answers are lines between samples, 1 % of the extent of joint space apart; ours are proven between them.
+ * RRT-Connect of OMPL with the contact test of coal on the same meshes and pairs, called through pinocchio in one call
+ * a posture. Its answers are lines between samples, 1 % of the extent of joint space apart; ours are proven between
+ * them.
  */
 const OMPL = `
 import json, os, sys, time
@@ -72,7 +73,9 @@ for start, goal in task["questions"]:
 json.dump({"times": times, "found": [found]}, sys.stdout)
 `;
 
-/** Ways between random free postures of the KR 6 cell, each line of them proven; the same questions to OMPL with coal. */
+/**
+ * Ways between random free postures of the KR 6 cell, each line of them proven; the same questions to OMPL with coal.
+ */
 export function planningFigures({ collider, arm, free, peer }: PlanningCell): Figure[] {
   const inside = free.filter(q =>
     q.every((angle, k) => angle >= arm.joints[k]!.limits.lower_rad && angle <= arm.joints[k]!.limits.upper_rad),
@@ -83,7 +86,8 @@ export function planningFigures({ collider, arm, free, peer }: PlanningCell): Fi
   const first = findPath(checker, ...questions[0]!, { seed: 1 });
   const first_ms = performance.now() - began_ms;
   if (first.kind !== "found") throw new Error(`No way for the first question: ${first.kind}.`);
-  // Other questions than those that count: the compiler settles and what was proven is kept, as for a cell that has been open for a while.
+  // Other questions than those that count: the compiler settles and what was proven is kept, as for a cell that has
+  // been open for a while.
   for (let i = 0; i < WARM_UP; i++)
     findPath(
       checker,

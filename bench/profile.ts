@@ -14,8 +14,8 @@ interface Case {
 }
 
 /**
- * Jerk-limited motions of six axes that arrive together: rest to rest, and from any speed and acceleration to any other.
- * Limits are those of a medium-sized arm, states are seeded. Ruckig plans the very same cases in the same run.
+ * Jerk-limited motions of six axes that arrive together: rest to rest, and from any speed and acceleration to any
+ * other. Limits are those of a medium-sized arm, states are seeded. Ruckig plans the very same cases in the same run.
  */
 export const run: Bench = () => {
   const limits: JerkLimits[] = [3, 2.5, 3, 6, 6, 8].map(speed => ({
@@ -77,7 +77,9 @@ function restCases(): Case[] {
   return Array.from({ length: CASES }, () => ({ from: { place: place() }, to: { place: place() } }));
 }
 
-/** Speeds and accelerations up to 70 % of the limits, less where they would run over them before they can be taken back. */
+/**
+ * Speeds and accelerations up to 70 % of the limits, less where they would run over them before they can be taken back.
+ */
 function anyCases(limits: readonly JerkLimits[]): Case[] {
   const random = seededRandom(32);
   const state = (): JerkState => {

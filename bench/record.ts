@@ -6,8 +6,8 @@ const MESSAGES = 200_000;
 const ROUNDS = 9;
 
 /**
- * Joint samples recorded per second, one thread, to memory: 6 axes, state changes every half second, 128 KiB chunks with
- * checksums and indexes. One file of the last round is read back and every sample counted: a lost one is a fault.
+ * Joint samples recorded per second, one thread, to memory: 6 axes, state changes every half second, 128 KiB chunks
+ * with checksums and indexes. One file of the last round is read back and every sample counted: a lost one is a fault.
  */
 export const run: Bench = () => {
   const robot = robotById("staubli_rx90l");

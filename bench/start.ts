@@ -20,8 +20,9 @@ const OF = [
 const REPEATS = 5;
 
 /**
- * How far apart robots begin that are started together: virtual controllers of three makers on loopback sockets, each with its program as
- * text of its own language, all in this process with its own timers. And what it costs a guard to look at the other robot once a sample.
+ * How far apart robots begin that are started together: virtual controllers of three makers on loopback sockets, each
+ * with its program as text of its own language, all in this process with its own timers. And what it costs a guard to
+ * look at the other robot once a sample.
  */
 export const run: Bench = async () => [...(await spread()), ...looks()];
 

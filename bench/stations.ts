@@ -7,7 +7,10 @@ import { quantile } from "../apps/studio/browser-tests/support/ledger.ts";
 import type { Page } from "../apps/studio/browser-tests/support/studio.ts";
 import { figure, type Figure } from "./figure.ts";
 
-/** What benchmarks of stations share: controllers in processes of their own, a seat at the server, a page that looks at it, one clock. */
+/**
+ * What benchmarks of stations share: controllers in processes of their own, a seat at the server, a page that looks at
+ * it, one clock.
+ */
 export const nodeNow_ms = (): number => performance.timeOrigin + performance.now();
 
 /** A virtual controller of that brand in a process of its own, on the vendor's ports. */
@@ -86,7 +89,9 @@ export async function lookAtStations(page: Page): Promise<void> {
   await page.keyboard.press("Escape");
 }
 
-/** How far a clock is behind ours, by the quickest of many questions [ms]; off by at most half of that question's way. */
+/**
+ * How far a clock is behind ours, by the quickest of many questions [ms]; off by at most half of that question's way.
+ */
 export async function clockBehind_ms(ask: () => Promise<number>): Promise<number> {
   let least_ms = Infinity;
   let offset_ms = 0;

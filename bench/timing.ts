@@ -13,8 +13,9 @@ const SPEED = [3, 2.5, 3, 6, 6, 8];
 const ACCELERATION = SPEED.map(v => v * 4);
 
 /**
- * Time-optimal timing of a cubic spline through 100 seeded waypoints of six joints, within joint speeds and accelerations,
- * on 1,001 places; the spline is made and sampled inside the measured time. TOPP-RA times the same waypoints.
+ * Time-optimal timing of a cubic spline through 100 seeded waypoints of six joints, within joint speeds and
+ * accelerations, on 1,001 places; the spline is made and sampled inside the measured time. TOPP-RA times the same
+ * waypoints.
  */
 export const run: Bench = () => {
   const random = seededRandom(51);

@@ -12,9 +12,10 @@ interface Seen {
 }
 
 /**
- * How late the studio shows what a controller of Universal Robots samples at 500 Hz: the controller, the server with the station and
- * the page are processes of their own on loopback. Age = way from controller to server (over its fastest, by the controller's own clock)
- * + from the server's handing on to the pose in the page, clocks mapped by the quickest of many questions. Frames are paced.
+ * How late the studio shows what a controller of Universal Robots samples at 500 Hz: the controller, the server with
+ * the station and the page are processes of their own on loopback. Age = way from controller to server (over its
+ * fastest, by the controller's own clock) + from the server's handing on to the pose in the page, clocks mapped by the
+ * quickest of many questions. Frames are paced.
  */
 export const stationLate: Bench = async () => {
   const controller = await virtual("ur", HOST);

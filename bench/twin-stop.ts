@@ -22,9 +22,10 @@ const DATA = 85;
 const HEARTBEAT = 16;
 
 /**
- * From the stop that somebody asks for to the stop on the controller's wire, on real sockets of loopback: a message at the stations'
- * socket, and STOP in the page. The server, the controllers and this process are processes of their own; the wire is seen by a
- * relay in front of the controller. Beside it the same while three other drivers' controllers stand still for two seconds at a time.
+ * From the stop that somebody asks for to the stop on the controller's wire, on real sockets of loopback: a message at
+ * the stations' socket, and STOP in the page. The server, the controllers and this process are processes of their own;
+ * the wire is seen by a relay in front of the controller. Beside it the same while three other drivers' controllers
+ * stand still for two seconds at a time.
  */
 export const stopLate: Bench = async () => {
   const children: ChildProcess[] = [];
@@ -160,7 +161,10 @@ interface Stops {
   readonly timers_ms: readonly number[];
   readonly without: number;
 }
-/** Asks again and again at uneven moments; without a link there is no wire to be seen on, and the robot's own watchdog has stopped it: those are counted. A stop that is not on the wire after a second never comes. */
+/**
+ * Asks again and again at uneven moments; without a link there is no wire to be seen on, and the robot's own watchdog
+ * has stopped it: those are counted. A stop that is not on the wire after a second never comes.
+ */
 async function stops(wire: Wire, line: { lost: number }, ask: () => Promise<number>): Promise<Stops> {
   const late_ms: number[] = [];
   const timers_ms: number[] = [];
@@ -194,6 +198,9 @@ function standStill(children: readonly ChildProcess[]): () => void {
     wake();
   };
 }
-/** How much of it is the machine's: a timer of a process that does nothing else, and links that were lost because a process was kept from running. */
+/**
+ * How much of it is the machine's: a timer of a process that does nothing else, and links that were lost because a
+ * process was kept from running.
+ */
 const beside = ({ timers_ms, without }: Stops): string =>
   `meanwhile timers of this process came ${quantile(timers_ms, 0.99).toFixed(1)} ms late at the 99th percentile, and ${without} stops met no link`;

@@ -10,9 +10,9 @@ import { stopLate } from "./twin-stop.ts";
 const SECONDS = Number(process.env["TWINCELL_BENCH_S"] ?? 10);
 
 /**
- * How late the twin shows what the controller samples, in real time: with timers of this process, at 500 samples a second,
- * in the page while its exported text runs, over a server between processes, and how long a stop is under way. A sample is due at its own time; its age is taken where the pose is shown, so
- * a timer that comes late counts.
+ * How late the twin shows what the controller samples, in real time: with timers of this process, at 500 samples a
+ * second, in the page while its exported text runs, over a server between processes, and how long a stop is under way.
+ * A sample is due at its own time; its age is taken where the pose is shown, so a timer that comes late counts.
  */
 export const run: Bench = async () => [
   ...(await inProcess()),

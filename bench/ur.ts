@@ -13,9 +13,9 @@ const HOST = "127.0.0.46";
 const python = process.env["TWINCELL_PYTHON"] ?? "python3";
 
 /**
- * How steadily a controller of Universal Robots is heard at 500 Hz: a virtual one in a process of its own, our driver in this one,
- * and ur_rtde in a third where it is installed. The rate counts what came per second of this machine's clock; a gap is the time
- * from one arrival to the next.
+ * How steadily a controller of Universal Robots is heard at 500 Hz: a virtual one in a process of its own, our driver
+ * in this one, and ur_rtde in a third where it is installed. The rate counts what came per second of this machine's
+ * clock; a gap is the time from one arrival to the next.
  */
 export const run: Bench = async () => {
   const controller = await virtual("ur", HOST);

@@ -7,8 +7,9 @@ const FILMS_THE_STUDIO =
   "navigator.mediaDevices.getUserMedia = () => navigator.mediaDevices.getDisplayMedia({ video: { frameRate: 30 } });";
 
 /**
- * Glass to glass through a real server: the studio shows its time code, a page as a phone opens it films the studio's page, and
- * the picture that comes back is read, on one clock. Display, compositor, capture, packing and unpacking all share this machine's processor here.
+ * Glass to glass through a real server: the studio shows its time code, a page as a phone opens it films the studio's
+ * page, and the picture that comes back is read, on one clock. Display, compositor, capture, packing and unpacking all
+ * share this machine's processor here.
  */
 export const run: Bench = async () => {
   const studio = await Studio.start(CAMERA_FLAGS);

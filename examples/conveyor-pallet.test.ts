@@ -1,4 +1,7 @@
-/** Row M-54 carried out with contact: boxes come on a belt, a photo-cell stops it, a gripper fetches them, a table takes them. */
+/**
+ * Row M-54 carried out with contact: boxes come on a belt, a photo-cell stops it, a gripper fetches them, a table takes
+ * them.
+ */
 import { cellGeometry, conveyorPalletCell, physicalScene, type CellDocument } from "@twincell/project";
 import {
   checkProgram,

@@ -1,4 +1,7 @@
-/** The shipped examples, for every robot that reaches their places, as text of that robot's own language, executed and compared with the plan. */
+/**
+ * The shipped examples, for every robot that reaches their places, as text of that robot's own language, executed and
+ * compared with the plan.
+ */
 import { cellGeometry, conveyorPalletCell, tracedCartonCell, type StepsCell } from "@twincell/project";
 import {
   checkProgram,

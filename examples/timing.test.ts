@@ -58,7 +58,10 @@ interface Executed {
   readonly steps: number;
   readonly said: Program;
 }
-/** Exports the program, interprets that text and lets the virtual controller carry it out from home; time is the controller's. `said` is what the text says: V+ has no blend radius. */
+/**
+ * Exports the program, interprets that text and lets the virtual controller carry it out from home; time is the
+ * controller's. `said` is what the text says: V+ has no blend radius.
+ */
 async function execute(program: Program): Promise<Executed> {
   const emitted = vPlus.emit(program, robot, worldFromBase);
   if (emitted.kind !== "emitted") throw new Error(emitted.sentence);

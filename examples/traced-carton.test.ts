@@ -1,4 +1,7 @@
-/** The whole path through every package: the example program is checked against its cell, exported, executed as text, planned, and measured against the carton's edges. */
+/**
+ * The whole path through every package: the example program is checked against its cell, exported, executed as text,
+ * planned, and measured against the carton's edges.
+ */
 import {
   CellCollider,
   checkProgram,

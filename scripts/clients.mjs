@@ -1,5 +1,6 @@
-// npm run clients: third-party clients and parsers, which tests hold ours against, in a Python environment of their own.
-// Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI installs them.
+// npm run clients: third-party clients and parsers, which tests hold ours against, in a Python environment of their
+// own. Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI
+// installs them.
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,5 +1,6 @@
 // Fits the castings of robots to meshes that lie beside the checkout: node scripts/fit-shapes.ts ROBOT …
-// Writes packages/core/src/robots/library/forms/ROBOT.ts: rounded rectangles every few centimetres. Meshes themselves are never copied.
+// Writes packages/core/src/robots/library/forms/ROBOT.ts: rounded rectangles every few centimetres. Meshes themselves
+// are never copied.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { meshBounds, robotById, type FormLoft, type TriangleMesh } from "@twincell/core";
 import { addCovers, addMark } from "./shapes/decorate.ts";

@@ -3,7 +3,10 @@ import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
-/** Licences under which parts may be in a release. LGPL is one file of its own, loaded apart from the rest and replaceable. */
+/**
+ * Licences under which parts may be in a release. LGPL is one file of its own, loaded apart from the rest and
+ * replaceable.
+ */
 const ALLOWED =
   /^(MIT|MIT-0|ISC|0BSD|BSD-2-Clause|BSD-3-Clause|Apache-2\.0|Zlib|OFL-1\.1|Unlicense|CC0-1\.0|BlueOak-1\.0\.0|CC-BY-4\.0|Python-2\.0)$/;
 const APART = new Map([["occt-import-js", "LGPL-2.1"]]);

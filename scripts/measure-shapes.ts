@@ -1,4 +1,5 @@
-// How far the drawn links are from the published meshes that lie beside the checkout: node scripts/measure-shapes.ts [ROBOT …]
+// How far the drawn links are from the published meshes that lie beside the checkout: node scripts/measure-shapes.ts
+// [ROBOT …]
 import { shapeDeviation, LIBRARY, linkDesigns, seededRandom } from "@twincell/core";
 import { vendorLinks } from "./shapes/vendor.ts";
 

@@ -1,5 +1,6 @@
-// npm run pack: one tarball with studio, server and command line, out/twincell-VERSION.tgz. It needs nothing beside it: what the
-// command line imports is bundled, large files of the studio are kept packed (the server answers with them as they are).
+// npm run pack: one tarball with studio, server and command line, out/twincell-VERSION.tgz. It needs nothing beside it:
+// what the command line imports is bundled, large files of the studio are kept packed (the server answers with them as
+// they are).
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,8 +1,9 @@
 // How many public vendor programs open as they are: npm run public-programs FOLDER [-- --write] [-- --faults krl]
 //
-// FOLDER holds one folder a repository, named owner+name, with its files at their paths. Nothing is downloaded; without the folder
-// there is nothing to count. Files are split by hash: with --faults only those of the half to work on are named, the other half is
-// only counted. --write keeps counts, paths and hashes in docs/public-programs.json; texts never.
+// FOLDER holds one folder a repository, named owner+name, with its files at their paths. Nothing is downloaded; without
+// the folder there is nothing to count. Files are split by hash: with --faults only those of the half to work on are
+// named, the other half is only counted. --write keeps counts, paths and hashes in docs/public-programs.json; texts
+// never.
 import { createHash } from "node:crypto";
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, extname, join, relative } from "node:path";

@@ -1,4 +1,5 @@
-// npm run soak: what there is to soak, with the last results; npm run soak -- NAME [ARGUMENTS…] runs one, -- all runs every one, for the night.
+// npm run soak: what there is to soak, with the last results; npm run soak -- NAME [ARGUMENTS…] runs one, -- all runs
+// every one, for the night.
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { node, root } from "./prepare.mjs";

@@ -1,4 +1,7 @@
-/** Writes docs/controllers/README.md from what the drivers declare: node scripts/write-controllers.mjs. A test holds the file to it. */
+/**
+ * Writes docs/controllers/README.md from what the drivers declare: node scripts/write-controllers.mjs. A test holds the
+ * file to it.
+ */
 import { readFileSync, writeFileSync } from "node:fs";
 import { driverTables, DRIVERS } from "@twincell/controllers";
 

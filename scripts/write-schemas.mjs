@@ -1,4 +1,7 @@
-/** Writes docs/recording/*.schema.json, the schemas that stand in every recording, and docs/cell.schema.json: node scripts/write-schemas.mjs. A test holds the files to them. */
+/**
+ * Writes docs/recording/*.schema.json, the schemas that stand in every recording, and docs/cell.schema.json: node
+ * scripts/write-schemas.mjs. A test holds the files to them.
+ */
 import { mkdirSync, writeFileSync } from "node:fs";
 import { cellJsonSchema } from "@twincell/project";
 import { TOPICS } from "@twincell/recording";

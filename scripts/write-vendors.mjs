@@ -1,4 +1,6 @@
-/** Writes docs/vendors.md from what the dialects declare: node scripts/write-vendors.mjs. A test holds the file to it. */
+/**
+ * Writes docs/vendors.md from what the dialects declare: node scripts/write-vendors.mjs. A test holds the file to it.
+ */
 import { readFileSync, writeFileSync } from "node:fs";
 import { DIALECTS, vendorTables } from "@twincell/languages";
 

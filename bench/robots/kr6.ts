@@ -25,7 +25,10 @@ function joint(
   return { name, axis, parentFromJoint: pose(origin_m), limits };
 }
 
-/** KUKA KR 6 R900 sixx as its published URDF has it (ros-industrial kuka_kr6_support): zero is the arm stretched forwards. */
+/**
+ * KUKA KR 6 R900 sixx as its published URDF has it (ros-industrial kuka_kr6_support): zero is the arm stretched
+ * forwards.
+ */
 export const KR6_ARM: SerialArm = {
   name: "KUKA KR 6 R900 sixx",
   joints: [

@@ -1,11 +1,12 @@
 /**
- * Writes packages/core/src/robots/catalogue/MAKER.ts from public robot descriptions: node scripts/catalogue/write.ts FOLDER
+ * Writes packages/core/src/robots/catalogue/MAKER.ts from public robot descriptions: node scripts/catalogue/write.ts
+ * FOLDER
  *
- * FOLDER holds checkouts of the repositories of descriptions.json, each as OWNER+NAME; they are not part of this repository.
- * Two of them need a package of a sister repository beside their own: abb_resources (ros-industrial/abb) in
+ * FOLDER holds checkouts of the repositories of descriptions.json, each as OWNER+NAME; they are not part of this
+ * repository. Two of them need a package of a sister repository beside their own: abb_resources (ros-industrial/abb) in
  * ros-industrial+abb_experimental, staubli_resources (ros-industrial/staubli) in ros-industrial+staubli_experimental.
- * Only numbers are taken: places and axes of joints, limits, speeds. `witness.py` beside this file reads the same descriptions
- * with other programs and writes the fixture that the tests hold the data against.
+ * Only numbers are taken: places and axes of joints, limits, speeds. `witness.py` beside this file reads the same
+ * descriptions with other programs and writes the fixture that the tests hold the data against.
  */
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -5,10 +5,10 @@ import { DIALECTS, EXAMPLE_PULSES, dialectById, dialectsFor, informDialect } fro
 import { keptResults } from "../soak/kept.ts";
 
 /**
- * How much of other people's programs is understood: `node scripts/coverage/programs.ts FOLDER [dialect]`, where FOLDER has a
- * folder for each dialect, and in it one for each repository the files are from. Statements are lines of code. What is not
- * understood is counted by its first word; what is declared in a file that is not there, or lies out of reach of the robot
- * that reads it, is counted apart. Only counts are kept, in programs.json.
+ * How much of other people's programs is understood: `node scripts/coverage/programs.ts FOLDER [dialect]`, where FOLDER
+ * has a folder for each dialect, and in it one for each repository the files are from. Statements are lines of code.
+ * What is not understood is counted by its first word; what is declared in a file that is not there, or lies out of
+ * reach of the robot that reads it, is counted apart. Only counts are kept, in programs.json.
  */
 const [, , FOLDER, ONLY] = process.argv;
 if (FOLDER === undefined) throw new Error("FOLDER is missing: one folder per dialect, in it one per repository.");

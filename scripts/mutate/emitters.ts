@@ -12,9 +12,10 @@ import type { Verdict } from "./judge.ts";
 
 /**
  * Puts faults into the emitters and asks the conformance suite whether it sees them: `node scripts/mutate/emitters.ts
- * [faults] [dialect]`. Every fault is judged by what the suite does with its texts, in one thread; those that survive this
- * are put into a copy of the package whose other tests of the dialect then run (vitest --bail 1). Faults that change no text
- * of any program are counted apart: they are none, or nobody asks for what they spoil. Kept in emitters.json.
+ * [faults] [dialect]`. Every fault is judged by what the suite does with its texts, in one thread; those that survive
+ * this are put into a copy of the package whose other tests of the dialect then run (vitest --bail 1). Faults that
+ * change no text of any program are counted apart: they are none, or nobody asks for what they spoil. Kept in
+ * emitters.json.
  */
 const FAULTS = Number(process.argv[2] ?? 150);
 const ONLY = process.argv[3];

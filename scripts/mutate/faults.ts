@@ -30,7 +30,10 @@ const UNITS = new Set(["degrees", "millimetres", "mm", "radians", "inverse"]);
 /** What is said to people moves no robot. */
 const SAYINGS = new Set(["CannotSay", "warnings", "sentence", "hint", "title", "because", "RangeError"]);
 
-/** Every fault of these sorts in a source: wrong numbers, signs, conditions and units, swapped parts and dropped statements. */
+/**
+ * Every fault of these sorts in a source: wrong numbers, signs, conditions and units, swapped parts and dropped
+ * statements.
+ */
 export function faultsIn(file: string, source: string): Fault[] {
   const tree = ts.createSourceFile(file, source, ts.ScriptTarget.ESNext, true);
   const faults: Fault[] = [];

@@ -1,4 +1,6 @@
-/** A thread that is given one faulty emitter after the other and says whether its texts are told from the right ones. */
+/**
+ * A thread that is given one faulty emitter after the other and says whether its texts are told from the right ones.
+ */
 import { readFileSync } from "node:fs";
 import { registerHooks } from "node:module";
 import { fileURLToPath } from "node:url";

@@ -1,4 +1,5 @@
-// The triangles of a COLLADA file, enough for the drawn links beside the checkout: polygon lists, node matrices, unit, up axis.
+// The triangles of a COLLADA file, enough for the drawn links beside the checkout: polygon lists, node matrices, unit,
+// up axis.
 import type { TriangleMesh } from "@twincell/core";
 
 const numbers = (text: string): number[] => text.trim().split(/\s+/).map(Number);

@@ -185,7 +185,8 @@ function loftsOf(voxels: Voxels, box: Box, axis: number, tolerance_m: number): F
   const along = (["x", "y", "z"] as const)[axis]!;
   const lofts: FittedLoft[] = [];
   const place = (index: number, cells: number): number => 1000 * voxels.origin[index]! + mm * cells;
-  // A side at the cut of the box, where the link goes on, reaches into its neighbour; a true side is the surface itself.
+  // A side at the cut of the box, where the link goes on, reaches into its neighbour; a true side is the surface
+  // itself.
   const s = strides(voxels);
   const goesOn = (index: number, cell: number, other: number, w: number, from: number, to: number): boolean => {
     if (cell < 0 || cell >= voxels.count[index]!) return false;
@@ -260,7 +261,9 @@ function isFree(voxels: Voxels, axis: number, w: number, { u0, u1, v0, v1 }: Lay
   return solid < 0.25 * (u1 - u0) * (v1 - v0);
 }
 
-/** Fewer rings, none of whose numbers is off by more than the tolerance (Douglas, Peucker 1973). Radii count a third. */
+/**
+ * Fewer rings, none of whose numbers is off by more than the tolerance (Douglas, Peucker 1973). Radii count a third.
+ */
 function simplified(rings: readonly FittedRing[], tolerance: number): FittedRing[] {
   const keep = new Set([0, rings.length - 1]);
   const walk = (a: number, b: number): void => {

@@ -24,7 +24,8 @@ describe.each(LIBRARY.filter(({ form }) => form !== undefined).map(robot => [rob
     test.skipIf(links === null)(
       "T-64 the drawn links, grown by the stored shape error, enclose the published meshes and stand out by no more (the meshes are not beside this checkout when skipped)",
       () => {
-        // What is drawn lies inside the solids of the collision check (robots/shapes/shapes.test.ts): enclosing with it is enclosing with them.
+        // What is drawn lies inside the solids of the collision check (robots/shapes/shapes.test.ts): enclosing with it
+        // is enclosing with them.
         linkDesigns(robot).forEach(({ parts }, link) => {
           const drawn = shapeDeviation(
             parts.map(({ mesh }) => mesh),

@@ -6,7 +6,10 @@ import { armFromUrdf, readStl, readUrdf } from "@twincell/formats";
 
 const FOLDER = new URL("../../../shared/robots/", import.meta.url);
 
-/** Surface of every link in the link's own frame, or null when the files are not at hand. Drawn meshes where they are there, else those for collision. */
+/**
+ * Surface of every link in the link's own frame, or null when the files are not at hand. Drawn meshes where they are
+ * there, else those for collision.
+ */
 export function vendorLinks(id: string): TriangleMesh[] | null {
   const file = new URL(`${id}/robot.urdf`, FOLDER);
   const robot = robotById(id);

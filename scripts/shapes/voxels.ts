@@ -1,4 +1,5 @@
-// A link as little cubes: what is not reached from outside is solid, so that holes and doubled walls in a mesh do not matter.
+// A link as little cubes: what is not reached from outside is solid, so that holes and doubled walls in a mesh do not
+// matter.
 import { meshBounds, type TriangleMesh } from "@twincell/core";
 
 export interface Voxels {

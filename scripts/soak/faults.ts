@@ -5,9 +5,10 @@ import { soak, type Soaked } from "./faults/soak.ts";
 import { keptResults } from "./kept.ts";
 
 /**
- * Faults by the thousand between every driver and its virtual controller, through the station that people have, on a virtual
- * clock: `node scripts/soak/faults.ts [COUNT] [--seed N] [--brand ID]… [--fault NAME]… [--keep]`. COUNT is for each brand.
- * What a law says is broken is found again with its seed: `--brand ID --seed N 12`. Exit 1 when one did not hold.
+ * Faults by the thousand between every driver and its virtual controller, through the station that people have, on a
+ * virtual clock: `node scripts/soak/faults.ts [COUNT] [--seed N] [--brand ID]… [--fault NAME]… [--keep]`. COUNT is for
+ * each brand. What a law says is broken is found again with its seed: `--brand ID --seed N 12`. Exit 1 when one did not
+ * hold.
  */
 const { values, positionals } = parseArgs({
   allowPositionals: true,

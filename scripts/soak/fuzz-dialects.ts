@@ -5,9 +5,9 @@ import { damaged, expectSane } from "../../packages/languages/src/testing/damage
 import { keptResults } from "./kept.ts";
 
 /**
- * A million damaged texts for the reader and the interpreter of every dialect: no exception, no text that keeps them busy
- * for a second, a place and an expectation in every fault, no growth of memory. `node --expose-gc scripts/soak/fuzz-dialects.ts
- * [inputs] [dialect]` keeps its result in fuzz-dialects.json after every chunk.
+ * A million damaged texts for the reader and the interpreter of every dialect: no exception, no text that keeps them
+ * busy for a second, a place and an expectation in every fault, no growth of memory. `node --expose-gc
+ * scripts/soak/fuzz-dialects.ts [inputs] [dialect]` keeps its result in fuzz-dialects.json after every chunk.
  */
 const SEED = 11;
 const INPUTS = Number(process.argv[2] ?? 1_000_000);

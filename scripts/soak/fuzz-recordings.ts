@@ -1,6 +1,7 @@
 /**
- * Damaged recordings for the reader of histories: node --expose-gc scripts/soak/fuzz-recordings.ts [INPUTS] [SEED]. No exception, no input that keeps it busy for a
- * second, no wrong angle at a moment it calls recorded, no growth of memory. The result is kept beside this file.
+ * Damaged recordings for the reader of histories: node --expose-gc scripts/soak/fuzz-recordings.ts [INPUTS] [SEED]. No
+ * exception, no input that keeps it busy for a second, no wrong angle at a moment it calls recorded, no growth of
+ * memory. The result is kept beside this file.
  */
 import { writeFileSync } from "node:fs";
 import { cpus } from "node:os";

@@ -1,7 +1,8 @@
 // Random round trips through forward and inverse kinematics, one family after another:
 //   node scripts/soak/ik-round-trips.ts [COUNT] [SECONDS for general-6r] [FAMILY…]
-// q drawn evenly inside the limits; a miss is a q that is not among the branches of its own pose (to 1e-5 rad, whole turns apart), a
-// fault any branch whose forward kinematics misses the pose by 1e-9 (m, rad) or more. The result is kept beside this script.
+// q drawn evenly inside the limits; a miss is a q that is not among the branches of its own pose (to 1e-5 rad, whole
+// turns apart), a fault any branch whose forward kinematics misses the pose by 1e-9 (m, rad) or more. The result is
+// kept beside this script.
 import { cpus } from "node:os";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import {

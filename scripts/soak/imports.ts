@@ -5,9 +5,9 @@ import { disagreement } from "../../packages/languages/src/testing/import-agreem
 import { keptResults } from "./kept.ts";
 
 /**
- * A thousand generated texts with counters, state, inputs, loops and calls per language, imported as steps, and both sides
- * executed with the same inputs: how many are imported, how many of them do something else. `node scripts/soak/imports.ts
- * [programs] [language]` keeps its result in imports.json.
+ * A thousand generated texts with counters, state, inputs, loops and calls per language, imported as steps, and both
+ * sides executed with the same inputs: how many are imported, how many of them do something else. `node
+ * scripts/soak/imports.ts [programs] [language]` keeps its result in imports.json.
  */
 const PROGRAMS = Number(process.argv[2] ?? 1000);
 const ONLY = process.argv[3];

@@ -4,9 +4,9 @@ import { robotById, seededRandom } from "@twincell/core";
 import { singularJogs } from "../../packages/core/src/teach/testing/singular-jogs.ts";
 
 /**
- * 1,000 random jogs into each singularity of arms that jog by a closed form and out of it again, and some of one that is jogged by
- * damped least squares: whether all can leave, whether a joint is too fast or a number none. `node scripts/soak/jog-singular.ts`
- * takes some minutes and keeps its result in jog-singular.json.
+ * 1,000 random jogs into each singularity of arms that jog by a closed form and out of it again, and some of one that
+ * is jogged by damped least squares: whether all can leave, whether a joint is too fast or a number none. `node
+ * scripts/soak/jog-singular.ts` takes some minutes and keeps its result in jog-singular.json.
  */
 const SEED = 500;
 const NAMES = { 2: "wrist over axis 1", 3: "arm stretched or folded", 5: "wrist straight" } as const;

@@ -2,8 +2,8 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 
 /**
- * The results of a soak beside its script, kept one by one: what is not run again keeps its last result, and what has been
- * run counts when the rest is broken off.
+ * The results of a soak beside its script, kept one by one: what is not run again keeps its last result, and what has
+ * been run counts when the rest is broken off.
  */
 export function keptResults<R extends object>(
   file: URL,

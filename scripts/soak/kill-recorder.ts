@@ -1,6 +1,7 @@
 /**
- * Kills a recorder with SIGKILL at random moments and asks what is left: node scripts/soak/kill-recorder.ts [TIMES] [SEED]. Lines go to the real command line at
- * 100 Hz; what was handed over when the process died is held against what its file says. The result is kept beside this file.
+ * Kills a recorder with SIGKILL at random moments and asks what is left: node scripts/soak/kill-recorder.ts [TIMES]
+ * [SEED]. Lines go to the real command line at 100 Hz; what was handed over when the process died is held against what
+ * its file says. The result is kept beside this file.
  */
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";

@@ -4,8 +4,8 @@ import { robotById, type MoveStep, type Program, type Step } from "@twincell/cor
 import { createWorld, loadEngine, pickAndPlaceProgram, pickScene, PhysicsRun, StateLog } from "@twincell/physics";
 
 /**
- * An hour of a cell with contact in one world: a UR10e with its own torques fetches a box and puts it back, again and again,
- * while a beam and a belt work. No growth of memory, no part lost, no number that is none. `node --expose-gc
+ * An hour of a cell with contact in one world: a UR10e with its own torques fetches a box and puts it back, again and
+ * again, while a beam and a belt work. No growth of memory, no part lost, no number that is none. `node --expose-gc
  * scripts/soak/physics-hour.ts [seconds]` keeps its result in physics-hour.json.
  */
 const SECONDS = Number(process.argv[2] ?? 3600);

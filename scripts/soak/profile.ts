@@ -3,9 +3,9 @@ import { cpus } from "node:os";
 import { canBeLeft, canBeReached, JerkMotion, JerkPlanner, seededRandom } from "@twincell/core";
 
 /**
- * 10,000 jerk-limited motions between seeded states of seeded limits, each looked at in 100,000 instants: how far speed,
- * acceleration and jerk are over their limits at worst. `node scripts/soak/profile.ts` takes about a minute and keeps its
- * result in profile.json.
+ * 10,000 jerk-limited motions between seeded states of seeded limits, each looked at in 100,000 instants: how far
+ * speed, acceleration and jerk are over their limits at worst. `node scripts/soak/profile.ts` takes about a minute and
+ * keeps its result in profile.json.
  */
 const SEED = 71;
 const MOTIONS = 10_000;

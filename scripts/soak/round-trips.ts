@@ -5,9 +5,9 @@ import { randomProgram } from "../../packages/languages/src/testing/programs.ts"
 import { keptResults } from "./kept.ts";
 
 /**
- * A thousand random programs per dialect and robot that speaks it, written, executed and compared: the worst distance and
- * turn between what was meant and what the text does. Every second program has loops, decisions, calls, pallets and signals
- * as far as the dialect says them. `node scripts/soak/round-trips.ts [programs] [dialect]` keeps its result in
+ * A thousand random programs per dialect and robot that speaks it, written, executed and compared: the worst distance
+ * and turn between what was meant and what the text does. Every second program has loops, decisions, calls, pallets and
+ * signals as far as the dialect says them. `node scripts/soak/round-trips.ts [programs] [dialect]` keeps its result in
  * round-trips.json.
  */
 const PROGRAMS = Number(process.argv[2] ?? 1000);

@@ -4,8 +4,8 @@ import { seededRandom } from "@twincell/core";
 import { thinObstacles } from "../../packages/core/src/collision/testing/thin-obstacles.ts";
 
 /**
- * 10,000 plates 0.1 mm thin across the way of a needle, all of which samples 5 mm apart step over: how many the continuous check
- * misses. `node scripts/soak/thin-obstacles.ts` keeps its result in thin-obstacles.json.
+ * 10,000 plates 0.1 mm thin across the way of a needle, all of which samples 5 mm apart step over: how many the
+ * continuous check misses. `node scripts/soak/thin-obstacles.ts` keeps its result in thin-obstacles.json.
  */
 const SEED = 600;
 const begun_ms = performance.now();

@@ -1,8 +1,9 @@
 // Verdicts on contact beside coal's, pair of meshes by pair of meshes:
 //   node scripts/soak/verdicts.ts [CONFIGURATIONS per pair] [ROBOT…]
-// For every pair of links of a robot with published meshes, half of the configurations are random postures inside the joint limits, half
-// random placements near each other. coal tests surfaces on the same triangles; where one solid holds the other ours says contact and
-// coal none, which a sum of solid angles decides apart. Any other disagreement is kept with its distance. Result in verdicts.json.
+// For every pair of links of a robot with published meshes, half of the configurations are random postures inside the
+// joint limits, half random placements near each other. coal tests surfaces on the same triangles; where one solid
+// holds the other ours says contact and coal none, which a sum of solid angles decides apart. Any other disagreement is
+// kept with its distance. Result in verdicts.json.
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { fileURLToPath } from "node:url";

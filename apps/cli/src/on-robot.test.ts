@@ -1,4 +1,7 @@
-/** A robot moved from the command line: at a server, and at its controller directly. Every command is a process of its own. */
+/**
+ * A robot moved from the command line: at a server, and at its controller directly. Every command is a process of its
+ * own.
+ */
 import { execFile, spawn, type ChildProcess } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,5 +1,6 @@
 /**
- * ABB's externally guided motion and Robot Web Services on the system's own sockets: our driver, and a client that nobody here
+ * ABB's externally guided motion and Robot Web Services on the system's own sockets: our driver, and a client that
+ * nobody here
  * wrote. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install abb-robot-client==0.4.0
  */
 import { abbAdapter, createRealController, createVirtualAbb, type VirtualAbb } from "@twincell/controllers";
@@ -19,7 +20,10 @@ const rapid = dialectById("rapid")!;
 const network = nodeNetwork();
 const scheduler = nodeScheduler;
 const ACCURACY_RAD = (0.001 * Math.PI) / 180;
-/** On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in virtual time. */
+/**
+ * On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in
+ * virtual time.
+ */
 const BUSY_S = 3;
 const open: { close(): void }[] = [];
 afterEach(() => {

@@ -2,8 +2,8 @@ import { randomBytes, randomInt, timingSafeEqual } from "node:crypto";
 
 const COOKIE = "twincell_access";
 /**
- * So many wrong codes of one client, then its codes are not looked at for a minute, and after each further wrong one twice as long, up to
- * an hour: 250 clients together try some 13,000 of a million codes a day. Nobody else is kept out.
+ * So many wrong codes of one client, then its codes are not looked at for a minute, and after each further wrong one
+ * twice as long, up to an hour: 250 clients together try some 13,000 of a million codes a day. Nobody else is kept out.
  */
 const TRIES = 20;
 const PAUSE_S = 60;

@@ -1,6 +1,6 @@
 /**
- * The documented API by HTTP and by its read-only socket. Documents are held against validators that nobody here wrote; the Python
- * that has them is named by TWINCELL_PYTHON: `npm run clients`.
+ * The documented API by HTTP and by its read-only socket. Documents are held against validators that nobody here wrote;
+ * the Python that has them is named by TWINCELL_PYTHON: `npm run clients`.
  */
 import { spawnSync } from "node:child_process";
 import { once } from "node:events";

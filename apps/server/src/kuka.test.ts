@@ -1,5 +1,6 @@
 /**
- * KUKA on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has them is named by
+ * KUKA on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has them is named
+ * by
  * TWINCELL_PYTHON, or is the python3 of the path:  pip install py-openshowvar==1.1.7
  */
 import {

@@ -17,8 +17,8 @@ export const HEADERS: Readonly<Record<string, string>> = {
 };
 
 /**
- * The bindings of MuJoCo and of the CAD kernel write their own invokers when they start. Only the workers that hold them may do so,
- * which have no page to change and nobody but this origin to talk to; everything else stays without.
+ * The bindings of MuJoCo and of the CAD kernel write their own invokers when they start. Only the workers that hold
+ * them may do so, which have no page to change and nobody but this origin to talk to; everything else stays without.
  */
 const WRITES_CODE = /^\/assets\/(physics|step)\.worker-[\w-]+\.js$/;
 const WRITER_HEADERS: Readonly<Record<string, string>> = {
@@ -39,7 +39,9 @@ export const LOOPBACK: readonly string[] = ["localhost", "127.0.0.1", "[::1]"];
 export const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean =>
   hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
 
-/** Hands out files of the built studio to whoever asked for one of these hosts and knows the code, where there is one. */
+/**
+ * Hands out files of the built studio to whoever asked for one of these hosts and knows the code, where there is one.
+ */
 export function studioListener(
   files: ReturnType<typeof staticFiles>,
   hosts: ReadonlySet<string>,

@@ -203,7 +203,8 @@ test("any bytes on the socket: a sentence and the end of that connection, never 
   last.send('{"type":"dance"}');
   await over;
   expect(sentences).toEqual([expect.stringContaining("could not be understood") as string]);
-  // Whatever the pendant said was a message of the protocol, and it still answers; a damaged text may have been a whole act.
+  // Whatever the pendant said was a message of the protocol, and it still answers; a damaged text may have been a whole
+  // act.
   expect(said).toEqual([]);
   await here.scheduler.elapse(1);
   expect([...here.opened.virtual.jointAngles()]).toEqual([...before]);

@@ -1,4 +1,7 @@
-/** The Python client of clients/python against a server with virtual controllers: `npm run clients` installs what it needs. */
+/**
+ * The Python client of clients/python against a server with virtual controllers: `npm run clients` installs what it
+ * needs.
+ */
 import { spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

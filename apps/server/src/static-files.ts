@@ -28,8 +28,8 @@ export interface StaticAnswer {
 }
 
 /**
- * Files of one folder, compressed once and kept: the studio is small and asked for again and again. `NAME.br` stands for NAME
- * where there is no NAME itself: a package keeps its large files that way.
+ * Files of one folder, compressed once and kept: the studio is small and asked for again and again. `NAME.br` stands
+ * for NAME where there is no NAME itself: a package keeps its large files that way.
  */
 export function staticFiles(folder: string) {
   const kept = new Map<

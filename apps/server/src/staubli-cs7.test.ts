@@ -1,6 +1,7 @@
 /**
- * Stäubli CS7 on the system's own sockets: our driver, V+ as it is exported, and a client that nobody here wrote and that moves a real RX90:
- * the C++ class Rx90 of luismarzo/rx90. TWINCELL_RX90 names its folder in a checkout, `rx90/Server_Client/No_modbus`.
+ * Stäubli CS7 on the system's own sockets: our driver, V+ as it is exported, and a client that nobody here wrote and
+ * that moves a real RX90: the C++ class Rx90 of luismarzo/rx90. TWINCELL_RX90 names its folder in a checkout,
+ * `rx90/Server_Client/No_modbus`.
  */
 import {
   createCs7Adapter,

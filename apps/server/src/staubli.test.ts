@@ -1,6 +1,6 @@
 /**
- * Stäubli CS8 and CS9 on the system's own sockets: our driver, VAL 3 as it is exported, and both ends of simple_message as nobody
- * here wrote them: the C++ library of ROS-Industrial. TWINCELL_SIMPLE_MESSAGE names its folder in a checkout:
+ * Stäubli CS8 and CS9 on the system's own sockets: our driver, VAL 3 as it is exported, and both ends of simple_message
+ * as nobody here wrote them: the C++ library of ROS-Industrial. TWINCELL_SIMPLE_MESSAGE names its folder in a checkout:
  *   git clone industrial_core of ros-industrial at 0.7.3;  TWINCELL_SIMPLE_MESSAGE=industrial_core/simple_message
  */
 import {

@@ -1,5 +1,6 @@
 /**
- * Universal Robots on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has them is named by
+ * Universal Robots on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has
+ * them is named by
  * TWINCELL_PYTHON, or is the python3 of the path:  pip install ur_rtde==1.6.5 urx==0.11.0, and UR's own RTDE client from its public
  * repository.
  */
@@ -87,7 +88,8 @@ describe("Universal Robots on real sockets", () => {
     real.onSample(() => {
       samples++;
     });
-    // A machine that does much else may stall this process past the watchdog of the robot: then it stops, as it should, and is told again.
+    // A machine that does much else may stall this process past the watchdog of the robot: then it stops, as it should,
+    // and is told again.
     let outcome = await real.moveJoints(near(0.3));
     for (let tries = 1; tries < 5 && outcome.kind !== "done"; tries++) {
       await pause(1000);

@@ -1,7 +1,7 @@
 /**
  * Yaskawa on the system's own sockets: our driver, and clients and a server that nobody here wrote, where they are:
- * TWINCELL_FS100 is the path of fs100.py (github.com/hsinkoyu/fs100), TWINCELL_MOTO_HSES the folder of the built programs of
- * moto-hses 0.4 (cargo build --release --bins --examples), which has `server` and `examples/` in it.
+ * TWINCELL_FS100 is the path of fs100.py (github.com/hsinkoyu/fs100), TWINCELL_MOTO_HSES the folder of the built
+ * programs of moto-hses 0.4 (cargo build --release --bins --examples), which has `server` and `examples/` in it.
  */
 import {
   createRealController,
@@ -27,7 +27,10 @@ const robot = robotById("yaskawa_gp8")!;
 const network = nodeNetwork();
 const scheduler = nodeScheduler;
 const ACCURACY_RAD = (0.001 * Math.PI) / 180;
-/** On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in virtual time. */
+/**
+ * On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in
+ * virtual time.
+ */
 const BUSY_S = 3;
 async function until(so: () => boolean, most_s = 10): Promise<void> {
   for (const end_s = scheduler.now_s() + most_s; !so() && scheduler.now_s() < end_s; ) await pause(10);

@@ -9,7 +9,9 @@ afterAll(async () => {
   await studio.stop();
 });
 
-/** A hand over the carton with a tremor of 1 mm: a rest, a straight, a quarter of a circle, a rest; 50 samples a second. */
+/**
+ * A hand over the carton with a tremor of 1 mm: a rest, a straight, a quarter of a circle, a rest; 50 samples a second.
+ */
 function table(): string {
   const lines = ["t_s,x_m,y_m,z_m,rx_deg,ry_deg,rz_deg,closed"];
   let state = 7;

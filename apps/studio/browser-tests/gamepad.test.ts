@@ -231,7 +231,10 @@ describe("the edge of reach", () => {
     readonly until_ms: number;
     readonly sounds: number;
   }
-  /** Holds a stick until a limit is met, pulls it back at once, and watches every frame until the lock is over and a few more. */
+  /**
+   * Holds a stick until a limit is met, pulls it back at once, and watches every frame until the lock is over and a few
+   * more.
+   */
   const watch = (axis: number, value: number): Promise<{ readonly frames: readonly Frame[]; readonly drawn: number }> =>
     open.page.evaluate(
       ([stick, push]) =>

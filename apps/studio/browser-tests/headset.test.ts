@@ -264,7 +264,8 @@ describe("N-63 X-42 in an emulated Quest 3", () => {
   });
 
   test("UX what is written in the room can be read", async () => {
-    // Capitals of the panel's typeface are 0.727 of its size; 22 mm at 1.2 m, or as large to the eye where it is nearer.
+    // Capitals of the panel's typeface are 0.727 of its size; 22 mm at 1.2 m, or as large to the eye where it is
+    // nearer.
     const eye = await page.evaluate(() => {
       const { x, y, z } = window.xrDevice.position;
       return [x, y, z] as [number, number, number];

@@ -18,7 +18,10 @@ const folder = mkdtempSync(join(tmpdir(), "twincell-day-"));
 const day = join(folder, "day.mcap");
 let studio: Studio;
 
-/** Where the robot is on that day: it goes round its home, a little farther each hour, and waits; later cycles are slower. */
+/**
+ * Where the robot is on that day: it goes round its home, a little farther each hour, and waits; later cycles are
+ * slower.
+ */
 function angles(t_s: number, out = new Float64Array(n)): Float64Array {
   const cycle = Math.floor(t_s / CYCLE_S);
   const inCycle = t_s % CYCLE_S;

@@ -76,7 +76,10 @@ async function jog(page: Page, joint: number, by_rad: number): Promise<void> {
   await page.keyboard.up("Space");
 }
 
-/** Runs the program; a check that is not content asks, since an arm that is stretched at home turns over at once when it is left. */
+/**
+ * Runs the program; a check that is not content asks, since an arm that is stretched at home turns over at once when it
+ * is left.
+ */
 async function start(page: Page): Promise<void> {
   await page.evaluate(() => window.twincell.run("run.start"));
   const red = await page.evaluate(() => window.twincell.stores.playStore.getState().verdict?.ok === false);

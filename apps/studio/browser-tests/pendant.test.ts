@@ -34,7 +34,10 @@ interface Said {
   readonly ports: Readonly<Record<string, number>>;
 }
 
-/** The studio's own 3D view is drawn by the processor here, which the signs of life of two pages and three processes need. */
+/**
+ * The studio's own 3D view is drawn by the processor here, which the signs of life of two pages and three processes
+ * need.
+ */
 const NO_PICTURE =
   "{const get=HTMLCanvasElement.prototype.getContext;HTMLCanvasElement.prototype.getContext=function(kind,...more){return /webgl/.test(kind)?null:get.call(this,kind,...more)}}";
 const EXPECTED = /WebGL/;
@@ -80,8 +83,8 @@ async function press(page: Page, name: string): Promise<void> {
   await page.mouse.down();
 }
 /**
- * Jogs with the enabling switch held until that is so, as a person does: where the page is kept from its signs of life for 80 ms, the
- * jog is over, and the keys are pressed again.
+ * Jogs with the enabling switch held until that is so, as a person does: where the page is kept from its signs of life
+ * for 80 ms, the jog is over, and the keys are pressed again.
  */
 async function jogUntil(page: Page, name: string, so: () => boolean | Promise<boolean>): Promise<void> {
   for (let tries = 0; tries < 40; tries++) {
@@ -102,8 +105,8 @@ async function letGo(page: Page): Promise<void> {
   await page.keyboard.up("e");
 }
 /**
- * Runs the program there with the enabling switch held, until that is so. A machine that kept the link from being heard has it confirmed
- * first, as a person would.
+ * Runs the program there with the enabling switch held, until that is so. A machine that kept the link from being heard
+ * has it confirmed first, as a person would.
  */
 async function runFromStudio(page: Page, so: () => boolean | Promise<boolean>): Promise<void> {
   await page.bringToFront();
@@ -333,7 +336,8 @@ test("the pendant's page on a desk and on a phone, in both themes: everything wi
       expect(await hand.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${brand} ${width}`).toBe(
         true,
       );
-      // No part is squeezed below what it holds, so that it lies on the next; the enabling switch alone floats, where a thumb finds it.
+      // No part is squeezed below what it holds, so that it lies on the next; the enabling switch alone floats, where a
+      // thumb finds it.
       const laps = await hand.evaluate(() =>
         [...document.querySelectorAll<HTMLElement>(".desk, .desk > *")]
           .filter(part => getComputedStyle(part).overflowY === "visible" && part.scrollHeight > part.clientHeight + 2)

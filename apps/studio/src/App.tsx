@@ -208,7 +208,8 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
-  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
+  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the
+  // pointer.
   const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
     case "cell":

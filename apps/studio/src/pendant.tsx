@@ -7,8 +7,8 @@ import "./tokens.css";
 import "./app.css";
 
 /**
- * The pendant of one virtual controller on a page of its own. Whoever served the page is its host: `twincell virtual`, or a server
- * with stations, one of which `?station=` names.
+ * The pendant of one virtual controller on a page of its own. Whoever served the page is its host: `twincell virtual`,
+ * or a server with stations, one of which `?station=` names.
  */
 const wanted = new URL(location.href).searchParams.get("station");
 const root = createRoot(document.getElementById("root")!);

@@ -11,7 +11,10 @@ export interface Driver {
   readonly vendor: string;
   readonly drives?: (robot: Robot) => boolean;
   readonly cannot: readonly Cannot[];
-  /** Where it stands on another driver: the rows from T-19 on that tests of its own show; the others are shown through that one. */
+  /**
+   * Where it stands on another driver: the rows from T-19 on that tests of its own show; the others are shown through
+   * that one.
+   */
   readonly own?: readonly string[];
   /** How the names of those tests end. */
   readonly tests?: string;

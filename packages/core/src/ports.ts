@@ -95,8 +95,8 @@ export interface RobotController extends StateSource {
   moveToPose(baseFromFlange: Pose<"base", "flange">): Promise<CommandOutcome>;
   moveToZero(): Promise<CommandOutcome>;
   /**
-   * Executes primitive steps (`unrolled` makes them of a program) one after the other; the iterator is asked for the next
-   * when it is needed (T-53).
+   * Executes primitive steps (`unrolled` makes them of a program) one after the other; the iterator is asked for the
+   * next when it is needed (T-53).
    */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
@@ -108,7 +108,10 @@ export interface RobotController extends StateSource {
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
 }
 
-/** How the connection to a real robot is: connecting tries again by itself, with growing pauses; only a person closes it. */
+/**
+ * How the connection to a real robot is: connecting tries again by itself, with growing pauses; only a person closes
+ * it.
+ */
 export type LinkState = "closed" | "connecting" | "open" | "lost";
 export interface LinkReport {
   readonly state: LinkState;
@@ -130,13 +133,18 @@ export type Watchdog =
   | { readonly kind: "robot"; readonly within_s: number }
   | { readonly kind: "none"; readonly because: string };
 
-/** A robot on a wire (rows T-19 … T-22). Its commands are refused while the link is not open; nothing here waits for the wire. */
+/**
+ * A robot on a wire (rows T-19 … T-22). Its commands are refused while the link is not open; nothing here waits for the
+ * wire.
+ */
 export interface RealController extends RobotController {
   readonly kind: "real";
   readonly isConnected: boolean;
   readonly link: LinkReport;
   readonly watchdog: Watchdog;
-  /** Resolves with the first answer: open, or why not. A lost link is opened again without being asked; motion is not. */
+  /**
+   * Resolves with the first answer: open, or why not. A lost link is opened again without being asked; motion is not.
+   */
   connect(): Promise<CommandOutcome>;
   disconnect(): void;
   onLink(listen: (report: LinkReport) => void): () => void;
@@ -198,7 +206,10 @@ export interface Executed {
   readonly line: number;
   readonly step?: Step;
 }
-/** What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as addresses. */
+/**
+ * What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as
+ * addresses.
+ */
 export type TextContext = Pick<Program, "tools" | "frames"> & Partial<Pick<Program, "signals">>;
 export type Interpreted =
   | {
@@ -206,7 +217,9 @@ export type Interpreted =
       readonly run: (signals?: Signals) => Iterator<Executed, void>;
       readonly context: TextContext;
       readonly skipped?: readonly Skipped[];
-      /** Statements that are kept and shown but not executed, none of which moves the robot: each with what it would do. */
+      /**
+       * Statements that are kept and shown but not executed, none of which moves the robot: each with what it would do.
+       */
       readonly notExecuted?: readonly TextFault[];
     }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
@@ -235,7 +248,10 @@ export interface Resolution {
   readonly posesAsAngles?: boolean;
 }
 
-/** What lines of a language look like to whoever leaves out those that are not understood. Each pattern is tried on one line. */
+/**
+ * What lines of a language look like to whoever leaves out those that are not understood. Each pattern is tried on one
+ * line.
+ */
 export interface LineShapes {
   /** Moves the robot. */
   readonly motion: RegExp;
@@ -264,7 +280,10 @@ export interface Dialect {
   readonly cannot: readonly { readonly what: Capability; readonly because: string }[];
   /** Where the language itself is coarser than the proof of its text is strict. */
   readonly resolution?: Resolution;
-  /** What a controller executes, as one text, where that is more than the first of the files: a program and its data list. */
+  /**
+   * What a controller executes, as one text, where that is more than the first of the files: a program and its data
+   * list.
+   */
   runnable?(files: readonly EmittedFile[]): EmittedFile;
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
   /** Dialects with `lines` leave out what they do not understand when they are asked to. */
@@ -301,8 +320,8 @@ export interface DynamicsState {
 export type DynamicsOutcome = { readonly kind: "running" } | { readonly kind: "paused"; readonly why: Refusal };
 
 /**
- * Bodies with mass that touch: an arm, its gripper, parts, belts, sensors. One step after the other, without a clock; the
- * same scene, commands and engine give the same states to the last bit.
+ * Bodies with mass that touch: an arm, its gripper, parts, belts, sensors. One step after the other, without a clock;
+ * the same scene, commands and engine give the same states to the last bit.
  */
 export interface Dynamics {
   readonly scene: PhysicalScene;

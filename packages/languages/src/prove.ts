@@ -70,10 +70,10 @@ const MOST_STEPS = 50_000;
 const TRIALS: readonly ((read: number) => boolean)[] = [() => false, () => true, read => (read * 7 + 3) % 5 < 2];
 
 /**
- * Executes an emitted text and compares it, step by step, with the program it was made of: sort of step, path, tool tip in
- * the world, joint angles where they were taught, speed, stop or no stop, signals. Loops, calls and pallets are carried
- * out on both sides; where the program decides by signals, both are told the same and compared three times. This proves
- * the text, not the emitter's intention.
+ * Executes an emitted text and compares it, step by step, with the program it was made of: sort of step, path, tool tip
+ * in the world, joint angles where they were taught, speed, stop or no stop, signals. Loops, calls and pallets are
+ * carried out on both sides; where the program decides by signals, both are told the same and compared three times.
+ * This proves the text, not the emitter's intention.
  */
 export function proveText(
   dialect: Pick<Dialect, "interpret" | "resolution">,
@@ -204,7 +204,10 @@ function steady(run: Iterator<Executed, void>): { next(): { readonly line: numbe
   };
 }
 
-/** The steps of the program, each with the one after it where that is known without a decision: stops that it does not say are told as no step. */
+/**
+ * The steps of the program, each with the one after it where that is known without a decision: stops that it does not
+ * say are told as no step.
+ */
 function* following(
   happenings: Iterable<FlowEvent>,
   told: Told,

@@ -1,6 +1,6 @@
 /*
- * What programs of a shop floor hold beside plain motions: offsets in the tool, second groups, arguments, remarks, welding. Every
- * program is written for this test; the positions that are expected are worked out by hand.
+ * What programs of a shop floor hold beside plain motions: offsets in the tool, second groups, arguments, remarks,
+ * welding. Every program is written for this test; the positions that are expected are worked out by hand.
  */
 import { robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";

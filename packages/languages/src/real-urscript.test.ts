@@ -1,6 +1,6 @@
 /*
- * What exports of the pendant hold beside the motions: threads, critical sections, calls of other machines. Every program is written
- * for this test; the motions are worked out by hand.
+ * What exports of the pendant hold beside the motions: threads, critical sections, calls of other machines. Every
+ * program is written for this test; the motions are worked out by hand.
  */
 import { robotById, SignalTable, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";

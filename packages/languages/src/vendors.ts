@@ -27,7 +27,10 @@ const CAPABILITIES: readonly { readonly title: string; readonly all: readonly Ca
   { title: "skips what is unknown", all: [] },
 ];
 
-/** What each dialect declares, as tables in Markdown. What one cannot do stands below with its reason, in the words a user sees. */
+/**
+ * What each dialect declares, as tables in Markdown. What one cannot do stands below with its reason, in the words a
+ * user sees.
+ */
 export function vendorTables(dialects: readonly Dialect[]): string {
   const head = [
     "brand",

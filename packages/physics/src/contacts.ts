@@ -41,7 +41,9 @@ export const deepestOverlap = (engine: Engine, model: MjModel, data: MjData, sce
     undefined,
   );
 
-/** The name of what a geom belongs to, found by the body that carries it: bodies stand in the order they were written. */
+/**
+ * The name of what a geom belongs to, found by the body that carries it: bodies stand in the order they were written.
+ */
 function ownerOf(model: MjModel, geom: number, scene: PhysicalScene): string {
   const body = (model.geom_bodyid as Int32Array)[geom]!;
   const still = scene.objects.filter(({ role, belt }) => role === "fixture" && belt === undefined);

@@ -63,8 +63,8 @@ function layoutOf({ robot, gripper, objects }: PhysicalScene): Layout {
 }
 
 /**
- * A scene ready to be stepped, or the one sentence that says why it cannot be: a part without mass, solids inside one another at
- * the start, a number that is none (code "physics.…").
+ * A scene ready to be stepped, or the one sentence that says why it cannot be: a part without mass, solids inside one
+ * another at the start, a number that is none (code "physics.…").
  */
 export function createWorld(engine: Engine, scene: PhysicalScene, signals: Signals = new SignalTable()): WorldAnswer {
   const fault = judgeScene(scene);

@@ -15,13 +15,14 @@ import {
 import { isTextProgram, type CellDocument, type FrameRecord } from "./document.ts";
 
 /*
- * Frames belong to the object they are attached to and move with it. Traced edges and taught points do so through such a frame:
- * their targets are poses in it, so that programs, checks and exports need to know nothing of objects.
+ * Frames belong to the object they are attached to and move with it. Traced edges and taught points do so through such
+ * a frame: their targets are poses in it, so that programs, checks and exports need to know nothing of objects.
  */
 
 /**
- * Every attached frame where its object is now: worldFromFrame = worldFromObject · objectFromFrame, in the cell and in its
- * programs. A frame whose object is gone stays where it is and is attached to nothing. The very same cell when all stand there.
+ * Every attached frame where its object is now: worldFromFrame = worldFromObject · objectFromFrame, in the cell and in
+ * its programs. A frame whose object is gone stays where it is and is attached to nothing. The very same cell when all
+ * stand there.
  */
 export function followObjects(cell: CellDocument): CellDocument {
   const objects = new Map(cell.objects.map(object => [object.id, object.worldFromObject]));
@@ -71,7 +72,10 @@ export function attachFrame(cell: CellDocument, name: string, object: string | n
   };
 }
 
-/** A frame at another place of the world; one that is attached stays attached, there. A frame that is not there changes nothing. */
+/**
+ * A frame at another place of the world; one that is attached stays attached, there. A frame that is not there changes
+ * nothing.
+ */
 export function placeFrame(cell: CellDocument, name: string, worldFromFrame: Pose<"world", "frame">): CellDocument {
   if (!cell.frames.some(frame => frame.name === name)) return cell;
   return {
@@ -92,8 +96,9 @@ export function placeFrame(cell: CellDocument, name: string, worldFromFrame: Pos
 }
 
 /**
- * Attaches taught points (a traced edge is all steps of its group) where they stand: each target becomes a pose in a hidden
- * frame of the object. Joint angles become the pose they reach, with their branch; targets at the places of a pallet stay.
+ * Attaches taught points (a traced edge is all steps of its group) where they stand: each target becomes a pose in a
+ * hidden frame of the object. Joint angles become the pose they reach, with their branch; targets at the places of a
+ * pallet stay.
  *
  * @param steps  ids of moves of that program.
  */

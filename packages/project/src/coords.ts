@@ -17,16 +17,18 @@ import { isTextProgram, type CellDocument, type FrameRecord } from "./document.t
 import { withStepPrograms } from "./programs.ts";
 
 /*
- * Saved poses of the tool tip ("coordinates" to those who taught with them): named frames of the cell, taken at the TCP,
- * that trajectories are made through. Programs refer to them by name, so a pose that is edited takes its moves along. Each
- * edit takes a cell and returns another; one that changes nothing returns the very same cell.
+ * Saved poses of the tool tip ("coordinates" to those who taught with them): named frames of the cell, taken at the
+ * TCP, that trajectories are made through. Programs refer to them by name, so a pose that is edited takes its moves
+ * along. Each edit takes a cell and returns another; one that changes nothing returns the very same cell.
  */
 
 /** The poses that were saved, in their order. */
 export const savedCoords = (cell: CellDocument): readonly FrameRecord[] =>
   cell.frames.filter(frame => frame.saved === true);
 
-/** Row L-44: a frame where the tool tip is, under a name that is free: the wanted one, with a number where it is taken. */
+/**
+ * Row L-44: a frame where the tool tip is, under a name that is free: the wanted one, with a number where it is taken.
+ */
 export function addCoords(cell: CellDocument, worldFromTcp: Pose<"world", "tcp">, wanted = "Pose"): CellDocument {
   const taken = new Set([
     "world",
@@ -41,7 +43,9 @@ export function addCoords(cell: CellDocument, worldFromTcp: Pose<"world", "tcp">
   return { ...cell, frames: [...cell.frames, { name, worldFromFrame: placed(worldFromTcp), saved: true }] };
 }
 
-/** Row L-45: a saved pose is moved, whether or not the robot reaches it: the checker says so where a program goes there. */
+/**
+ * Row L-45: a saved pose is moved, whether or not the robot reaches it: the checker says so where a program goes there.
+ */
 export function editCoords(cell: CellDocument, name: string, worldFromTcp: Pose<"world", "tcp">): CellDocument {
   if (!savedCoords(cell).some(frame => frame.name === name)) return cell;
   const worldFromFrame = placed(worldFromTcp);
@@ -93,8 +97,8 @@ export interface TrajectoryOptions {
 }
 
 /**
- * Row L-49: the selected program goes on through saved poses, in the order of their names here. The first is come to by a joint
- * move, wherever the robot stands.
+ * Row L-49: the selected program goes on through saved poses, in the order of their names here. The first is come to by
+ * a joint move, wherever the robot stands.
  *
  * @param names  a pose may come more than once; a name that is not saved is left out.
  */

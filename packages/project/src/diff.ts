@@ -10,9 +10,10 @@ export interface CellDifference {
 }
 
 /**
- * What differs between two cells, in the order of the document: robot, tools, objects, frames, programs with their steps, the
- * rest. Things are told apart by id or name, not by place in a list; steps that only changed their order are one line. Lengths
- * are written in mm and angles of joints in degrees, with the difference of every position. Equal cells give an empty list.
+ * What differs between two cells, in the order of the document: robot, tools, objects, frames, programs with their
+ * steps, the rest. Things are told apart by id or name, not by place in a list; steps that only changed their order are
+ * one line. Lengths are written in mm and angles of joints in degrees, with the difference of every position. Equal
+ * cells give an empty list.
  */
 export function diffCells(before: CellDocument, after: CellDocument): readonly CellDifference[] {
   const { robot: robotA, tools: toolsA, objects: objectsA, frames: framesA, programs: programsA, ...restA } = before;

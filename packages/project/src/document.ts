@@ -106,7 +106,10 @@ export interface CellDocument {
   readonly sensors?: readonly Sensor[];
   readonly people?: readonly Person[];
   readonly zones?: readonly PeopleZone[];
-  /** The matrix of the robot's own pairs, once a person has learnt or edited it; without it what touches at home is left out. */
+  /**
+   * The matrix of the robot's own pairs, once a person has learnt or edited it; without it what touches at home is left
+   * out.
+   */
   readonly pairs?: PairsRecord;
   readonly programs: readonly CellProgram[];
   /** Name of the program being worked on. */

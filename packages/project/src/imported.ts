@@ -16,8 +16,8 @@ const BESIDE_M = 3;
 const GAP_M = 0.35;
 
 /**
- * The parts as objects of a cell. Each has its frame in the middle of its own underside, so that it turns about itself; together they
- * stand as in the file, their lowest point on the floor.
+ * The parts as objects of a cell. Each has its frame in the middle of its own underside, so that it turns about itself;
+ * together they stand as in the file, their lowest point on the floor.
  *
  * @param file   name of the file, kept in every object.
  * @param taken  ids that are in use.
@@ -70,8 +70,8 @@ function freeId(name: string, taken: ReadonlySet<string>): string {
 }
 
 /**
- * Objects made larger or smaller together: a unit that was taken wrongly is put right. They keep where they stand to each other, and the
- * lowest of them keeps its height. Only meshes change.
+ * Objects made larger or smaller together: a unit that was taken wrongly is put right. They keep where they stand to
+ * each other, and the lowest of them keeps its height. Only meshes change.
  *
  * @param factor  above 0; 1000 makes metres of what was taken for millimetres.
  */

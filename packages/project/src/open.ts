@@ -16,7 +16,10 @@ export type Opened =
 /** More reasons than this help nobody. */
 const MOST_REASONS = 30;
 
-/** Reads a saved cell. This is the only door: behind it every number is finite and every name means something. Never throws. */
+/**
+ * Reads a saved cell. This is the only door: behind it every number is finite and every name means something. Never
+ * throws.
+ */
 export function openDocument(text: string): Opened {
   let value: unknown;
   try {

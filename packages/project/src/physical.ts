@@ -22,8 +22,8 @@ export interface PhysicalSceneOptions {
 }
 
 /**
- * What of a saved cell has mass and touches. Work pieces fall and are carried, everything else stands still. The tool's own solid
- * is left out beside its fingers: contact of tools is judged exactly by the collision check.
+ * What of a saved cell has mass and touches. Work pieces fall and are carried, everything else stands still. The tool's
+ * own solid is left out beside its fingers: contact of tools is judged exactly by the collision check.
  */
 export function physicalScene(
   document: CellDocument,

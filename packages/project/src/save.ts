@@ -1,6 +1,9 @@
 import type { CellDocument } from "./document.ts";
 
-/** Keys in this order come first; the others follow by alphabet. So a saved cell reads from top to bottom and two versions differ only where they differ. */
+/**
+ * Keys in this order come first; the others follow by alphabet. So a saved cell reads from top to bottom and two
+ * versions differ only where they differ.
+ */
 const FIRST = [
   "format",
   "version",
@@ -45,7 +48,9 @@ const FIRST = [
 /** A list of numbers or words up to this long stays on one line. */
 const LINE = 140;
 
-/** The document as text: stable key order, two blanks of indentation, short lists on one line, a line end at the end. */
+/**
+ * The document as text: stable key order, two blanks of indentation, short lists on one line, a line end at the end.
+ */
 export function saveDocument(document: CellDocument): string {
   return `${written(document, "")}\n`;
 }

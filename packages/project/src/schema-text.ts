@@ -2,7 +2,10 @@ import { z } from "zod";
 import { cellSchema, textProgramSchema } from "./schema.ts";
 import { NEWEST } from "./versions.ts";
 
-/** The JSON schema of the newest cell file, as docs/cell.schema.json prints it. What only `openDocument` checks is not in it. */
+/**
+ * The JSON schema of the newest cell file, as docs/cell.schema.json prints it. What only `openDocument` checks is not
+ * in it.
+ */
 export function cellJsonSchema(): Record<string, unknown> {
   const cell = z.toJSONSchema(cellSchema, { io: "input" }) as Record<string, unknown> & {
     readonly properties: Record<string, unknown>;

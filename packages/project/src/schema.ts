@@ -158,7 +158,10 @@ export const textProgramSchema = z
 /** More than half a metre is no error of a measurement. */
 const error_m = z.exactOptional(z.number().nonnegative().max(0.5));
 
-/** The newest version of the cell file; docs/cell.schema.json is printed from it. Each program in it is read on its own: steps by core's `parseProgram`. */
+/**
+ * The newest version of the cell file; docs/cell.schema.json is printed from it. Each program in it is read on its own:
+ * steps by core's `parseProgram`.
+ */
 export const cellSchema = z.strictObject({
   format: z.literal("twincell.cell"),
   version: z.literal(2),

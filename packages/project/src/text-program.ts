@@ -1,6 +1,6 @@
 /*
- * A vendor's program kept as its files, byte for byte: it lives in the cell, runs from its text, and its taught points are
- * patched in place. Nothing of it is converted.
+ * A vendor's program kept as its files, byte for byte: it lives in the cell, runs from its text, and its taught points
+ * are patched in place. Nothing of it is converted.
  */
 
 /** How the bytes of a file stand in its `text`, and how a person is to see them. */
@@ -11,8 +11,8 @@ export interface TextFile {
   /** "utf-8" when left out. */
   readonly encoding?: TextEncoding;
   /**
-   * The whole file with its own line ends. Of "utf-8" the characters; of the others one character U+0000 … U+00FF a byte, so
-   * that every byte comes back and patches count bytes.
+   * The whole file with its own line ends. Of "utf-8" the characters; of the others one character U+0000 … U+00FF a
+   * byte, so that every byte comes back and patches count bytes.
    */
   readonly text: string;
 }
@@ -33,8 +33,9 @@ export interface TextProgram {
 export const TEXT_PROGRAM_FORMAT = "twincell.text-program";
 
 /**
- * A file as a cell keeps it. Bytes that are UTF-8 are kept as characters. Others are Shift-JIS when they read as such with at
- * least one pair that begins with 0x81 … 0x9f (control codes in Latin-1, most kanji in Shift-JIS), else Latin-1; the guess only decides how they are shown, for the bytes are kept.
+ * A file as a cell keeps it. Bytes that are UTF-8 are kept as characters. Others are Shift-JIS when they read as such
+ * with at least one pair that begins with 0x81 … 0x9f (control codes in Latin-1, most kanji in Shift-JIS), else
+ * Latin-1; the guess only decides how they are shown, for the bytes are kept.
  */
 export function textFileOf(name: string, bytes: Uint8Array): TextFile {
   const text = utf8Text(bytes);
@@ -109,7 +110,10 @@ function utf8Bytes(text: string): Uint8Array {
   return Uint8Array.from(bytes);
 }
 
-/** Every byte is ASCII, a half-width kana, or half of a pair, and at least one pair begins with 0x81 … 0x9f (JIS X 0208 annex 1). */
+/**
+ * Every byte is ASCII, a half-width kana, or half of a pair, and at least one pair begins with 0x81 … 0x9f (JIS X 0208
+ * annex 1).
+ */
 function isShiftJis(bytes: Uint8Array): boolean {
   let pairs = 0;
   for (let i = 0; i < bytes.length; i++) {

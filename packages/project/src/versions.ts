@@ -11,8 +11,8 @@ interface LiftStep {
  * shipped is kept in fixtures/cells.
  */
 export const STEPS: Readonly<Record<number, LiftStep>> = {
-  // Everything of version 1 means the same in version 2, which only adds: text programs, attached frames, hidden and locked
-  // objects and frames, training cells.
+  // Everything of version 1 means the same in version 2, which only adds: text programs, attached frames, hidden and
+  // locked objects and frames, training cells.
   1: {
     says: "The cell is of version 1; it may now also hold vendor programs as text and frames that move with an object.",
     lift: cell => ({ ...cell }),

@@ -1,7 +1,10 @@
 import type { ConnectionRequest, PendantAct } from "./ask.ts";
 import type { EventOf } from "./tell.ts";
 
-/** What a person did, in words for a history: the act, and with what; a command to the robot, and where to, or something done beside it. */
+/**
+ * What a person did, in words for a history: the act, and with what; a command to the robot, and where to, or something
+ * done beside it.
+ */
 export interface AuditEntryState {
   readonly action: string;
   readonly detail: string;
@@ -9,7 +12,10 @@ export interface AuditEntryState {
   readonly target: readonly number[];
 }
 
-/** An ask that is an act at one station. Signs of life, looking, and questions for the time are none; starting together is an act at each of the members. */
+/**
+ * An ask that is an act at one station. Signs of life, looking, and questions for the time are none; starting together
+ * is an act at each of the members.
+ */
 export type AuditEntry =
   | Exclude<
       ConnectionRequest,

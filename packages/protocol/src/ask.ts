@@ -48,7 +48,10 @@ export const pendantSchema = z.discriminatedUnion("do", [
   z.object({ do: z.literal("reboot") }),
 ]);
 
-/** What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in core. */
+/**
+ * What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in
+ * core.
+ */
 export const requestSchema = z.discriminatedUnion("type", [
   z.object({
     type: z.literal("open"),
@@ -57,7 +60,10 @@ export const requestSchema = z.discriminatedUnion("type", [
     brand: text,
     robot: text,
     name: z.exactOptional(text),
-    /** Where its programs take it to stand; and where it does stand among the other robots of the cell, to which it is an obstacle then. */
+    /**
+     * Where its programs take it to stand; and where it does stand among the other robots of the cell, to which it is
+     * an obstacle then.
+     */
     worldFromBase: z.exactOptional(pose),
     stand: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
@@ -80,7 +86,10 @@ export const requestSchema = z.discriminatedUnion("type", [
     ...asked,
     ...station,
   }),
-  /** The cell is another from now on, or its objects or its tool are: its guard keeps the robot from them, in motion too. */
+  /**
+   * The cell is another from now on, or its objects or its tool are: its guard keeps the robot from them, in motion
+   * too.
+   */
   z.object({ type: z.literal("cell"), ...asked, ...station, cell: z.unknown() }),
   z.object({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
   z.object({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),

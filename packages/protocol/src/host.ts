@@ -141,7 +141,10 @@ const unreadable = (why = "it is empty"): CommandOutcome =>
 const noPendant = ({ words }: ServedConnection): CommandOutcome =>
   refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
 
-/** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
+/**
+ * Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a
+ * server.
+ */
 export function createRobotServer(options: RobotServerOptions): RobotServer {
   const stations = new Map<string, { readonly station: ServedConnection; readonly forget: () => void }>();
   const channels = new Set<Channel>();
@@ -179,7 +182,10 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     if (says) all(says);
   };
 
-  /** Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what became of it. */
+  /**
+   * Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what
+   * became of it.
+   */
   function tellAct(who: string, act: AuditEntry, station: string): (outcome: CommandOutcome) => void {
     const { target, ...words } = auditEntryState(act);
     const said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
@@ -398,7 +404,10 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
         }
       }
 
-      /** Why somebody who has not the lease may not do what concerns a robot that somebody else commands; null when nobody does. */
+      /**
+       * Why somebody who has not the lease may not do what concerns a robot that somebody else commands; null when
+       * nobody does.
+       */
       function othersLease({ guard, words }: ServedConnection): CommandOutcome | null {
         const { holder } = guard.state;
         if (holder === null || holder === who) return null;

@@ -44,7 +44,10 @@ export const pendantWordsSchema = z.object({
   inputs: names,
   outputs: names,
 });
-/** What lamps, screen and read-out of the pendant say now; the truth of the controller itself, not what a driver knows of it. */
+/**
+ * What lamps, screen and read-out of the pendant say now; the truth of the controller itself, not what a driver knows
+ * of it.
+ */
 export const pendantShownSchema = z.object({
   key: text,
   servo: z.enum(["on", "coming", "off"]),
@@ -126,7 +129,10 @@ export const eventSchema = z.discriminatedUnion("type", [
     /** Between links of the robot and objects at least this is kept, all errors in it [m]. */
     kept_m: z.exactOptional(z.number()),
   }),
-  /** Where the robot will be in so many seconds, and the first thing in its way; null when nothing is looked ahead any more. */
+  /**
+   * Where the robot will be in so many seconds, and the first thing in its way; null when nothing is looked ahead any
+   * more.
+   */
   z.object({
     type: z.literal("ahead"),
     ...station,
@@ -138,13 +144,19 @@ export const eventSchema = z.discriminatedUnion("type", [
       })
       .nullable(),
   }),
-  /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
+  /**
+   * A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its
+   * way.
+   */
   z.object({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
   z.object({
     type: z.literal("ended"),
     stations: z.array(z.object({ station: text, outcome: outcomeSchema })),
   }),
-  /** Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same number are one. */
+  /**
+   * Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same
+   * number are one.
+   */
   z.object({
     type: z.literal("act"),
     ...station,

@@ -233,7 +233,8 @@ test("packed bytes that lie about their size ask for no memory", () => {
   expect(frameContentSize(packed)).toBe(1000);
   expect(packing.unpack(packed, 1000)).toEqual(new Uint8Array(1000).fill(7));
   expect(packing.unpack(packed, 999)).toBeNull();
-  // A frame header that promises 2^62 bytes, written out from RFC 8878: magic, descriptor with 8 bytes of size, window, size.
+  // A frame header that promises 2^62 bytes, written out from RFC 8878: magic, descriptor with 8 bytes of size, window,
+  // size.
   const bomb = Uint8Array.of(0x28, 0xb5, 0x2f, 0xfd, 0xc0, 0x58, 0, 0, 0, 0, 0, 0, 0, 0x40, 1, 0, 0);
   expect(frameContentSize(bomb)).toBe(2 ** 62);
   expect(packing.unpack(bomb, 2 ** 62)).toBeNull();

@@ -41,7 +41,9 @@ const MOST_MARKS = 5000;
 /** Samples further apart than this are a gap in the recording, not a time that was seen. */
 const GAP_S = 1.5;
 
-/** Sums up a stream of samples, events and notes as they pass; times count from the start of the file and never fall. */
+/**
+ * Sums up a stream of samples, events and notes as they pass; times count from the start of the file and never fall.
+ */
 export interface Digester {
   sample(at_s: number, q: ArrayLike<number>, state: Pick<RobotState, "moving" | "safety" | "step">): void;
   event(at_s: number, code: string, level: EventLevel, sentence: string): void;

@@ -1,8 +1,8 @@
 import { utf8Bytes } from "./text.ts";
 
 /**
- * Joint angles as `sensor_msgs/msg/JointState` in CDR: what Foxglove, Rerun, PlotJuggler and ROS 2 read, plot and pose a
- * robot with, unasked. Seven times cheaper to write than JSON.
+ * Joint angles as `sensor_msgs/msg/JointState` in CDR: what Foxglove, Rerun, PlotJuggler and ROS 2 read, plot and pose
+ * a robot with, unasked. Seven times cheaper to write than JSON.
  */
 export const JOINT_STATE_SCHEMA = {
   name: "sensor_msgs/msg/JointState",

@@ -59,7 +59,9 @@ export function chunkShape(view: DataView, at: number): ChunkShape | null {
   };
 }
 
-/** Start of the next record from there that looks like a chunk lying whole before `until`; `until` when there is none. */
+/**
+ * Start of the next record from there that looks like a chunk lying whole before `until`; `until` when there is none.
+ */
 export function nextChunk(bytes: Uint8Array, view: DataView, from: number, until: number): number {
   for (let at = bytes.indexOf(Opcode.CHUNK, from); at >= 0 && at < until; at = bytes.indexOf(Opcode.CHUNK, at + 1)) {
     const shape = chunkShape(view, at);

@@ -17,7 +17,8 @@ const DICTIONARY_BYTES = [0, 1, 2, 4] as const;
 const SIZE_BYTES = [0, 2, 4, 8] as const;
 
 /**
- * How many bytes a zstd frame says it holds: asked before room is made for them, since a damaged frame may say anything.
+ * How many bytes a zstd frame says it holds: asked before room is made for them, since a damaged frame may say
+ * anything.
  *
  * @returns -1 when it does not say, or is no zstd frame.
  */

@@ -33,8 +33,8 @@ export const QUANTUM = 2 ** -20;
 export interface Compact {
   readonly packing: Packing;
   /**
-   * Of samples in which no joint leaves this band about the last one kept, and nothing else changes, only the first and the
-   * last of each chunk are kept [rad, or m]. By default half a quantum, so that nothing is lost but repetition.
+   * Of samples in which no joint leaves this band about the last one kept, and nothing else changes, only the first and
+   * the last of each chunk are kept [rad, or m]. By default half a quantum, so that nothing is lost but repetition.
    */
   readonly still?: number;
 }
@@ -43,7 +43,9 @@ export interface RunRecorder {
   /** Allocates nothing while a chunk is open. */
   record(sample: JointSample): void;
   event(kind: string, sentence: string, level?: EventLevel): void;
-  /** Commands, alarms, what people did, latencies, loads, the cell's version. Lines in and out come with the samples. */
+  /**
+   * Commands, alarms, what people did, latencies, loads, the cell's version. Lines in and out come with the samples.
+   */
   note<K extends NoteKind>(kind: K, what: Notes[K]): void;
   /** Closes the open chunk now, so that a crash after this costs nothing before it. */
   flush(): void;

@@ -9,7 +9,9 @@ export interface Topic {
   readonly schema: { readonly name: string; readonly encoding: string; readonly text: string };
 }
 
-/** Every channel of a recording, by its number in the file. New ones are added at the end: old files keep their meaning. */
+/**
+ * Every channel of a recording, by its number in the file. New ones are added at the end: old files keep their meaning.
+ */
 export const TOPICS: readonly Topic[] = [
   { topic: "/joint_states", messageEncoding: "cdr", schema: JOINT_STATE_SCHEMA },
   { topic: "/robot_state", messageEncoding: "json", schema: STATE_SCHEMA },

@@ -8,12 +8,18 @@ export type Doing = (typeof DOINGS)[number];
 export interface Worst {
   /** Without a state while the guard let a motion go on. */
   silentWhileMoving_s: number;
-  /** From the fault to the stop on the driver's wire: stops from here, and a page that fell silent, its heartbeat taken off. */
+  /**
+   * From the fault to the stop on the driver's wire: stops from here, and a page that fell silent, its heartbeat taken
+   * off.
+   */
   stopCommanded_s: number;
   /** From a stop here, or at the robot, until standstill. */
   standsAfterStop_s: number;
   standsAfterCabinet_s: number;
-  /** From a line that broke to standstill, where the robot has a watchdog; moves and texts apart: no controller watches over a text. */
+  /**
+   * From a line that broke to standstill, where the robot has a watchdog; moves and texts apart: no controller watches
+   * over a text.
+   */
   standsAfterLine_s: number;
   standsAfterLineUnwatched_s: number;
   standsAfterLineText_s: number;
@@ -176,7 +182,8 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
       await scheduler.elapse(0.5);
     }
     // A controller that twice named itself another robot is looked for again only at a person's word.
-    // So is one whose set-up was spoilt on its way when the line was opened: after three tries in vain a person opens it anew.
+    // So is one whose set-up was spoilt on its way when the line was opened: after three tries in vain a person opens
+    // it anew.
     if (i === 3) {
       station.disconnect();
       await scheduler.elapse(0.5);

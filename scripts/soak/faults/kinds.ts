@@ -4,8 +4,8 @@ import { pending, type Pending } from "./cell.ts";
 
 /**
  * What a fault must lead to.
- * "line": the controller and we do not hear each other any more; "here": we stop; "cabinet": the robot is stopped where it stands;
- * "page": who commands is silent; "any": the motion may end or go on, the laws that always hold are enough.
+ * "line": the controller and we do not hear each other any more; "here": we stop; "cabinet": the robot is stopped where
+ * it stands; "page": who commands is silent; "any": the motion may end or go on, the laws that always hold are enough.
  */
 export type Leads = "line" | "here" | "cabinet" | "page" | "any";
 type Undo = () => void | Promise<void>;

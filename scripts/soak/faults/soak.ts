@@ -20,14 +20,17 @@ export interface Soaked {
   readonly outcomes: Readonly<Record<string, number>>;
 }
 
-/** Cases of one cell: enough that what one leaves behind shows in the next, few enough that one is found again quickly. */
+/**
+ * Cases of one cell: enough that what one leaves behind shows in the next, few enough that one is found again quickly.
+ */
 const PER_CELL = 12;
 const STRIDE = 7919;
 
 /**
  * So many faults between the driver of that brand and its virtual controller.
  *
- * @param only    the faults to choose from; all of them when left out, and each in its turn instead of by chance when asked for.
+ * @param only    the faults to choose from; all of them when left out, and each in its turn instead of by chance when
+ *   asked for.
  * @param now_ms  of the machine, for how long it took.
  */
 export async function soak(

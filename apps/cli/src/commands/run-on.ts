@@ -48,7 +48,10 @@ async function executed(options: Given, robot: RobotController["robot"]): Promis
   return answer.program;
 }
 
-/** As much of a controller as a paced run needs: each step goes out as a program of its own, which is planned and checked by itself. */
+/**
+ * As much of a controller as a paced run needs: each step goes out as a program of its own, which is planned and
+ * checked by itself.
+ */
 function stepwise(program: Program, send: (program: Program) => Promise<CommandOutcome>): Pick<RobotController, "run"> {
   return {
     run: steps => send({ ...program, steps: [...steps] }),

@@ -91,7 +91,8 @@ Ctrl-C ends it.`,
     const { virtual, cabinet: virtualPendant } = opened;
     const page = existsSync(`${studio}/pendant/index.html`)
       ? await servePendant({
-          // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached from.
+          // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached
+          // from.
           studio,
           host: host.startsWith("127.") ? host : "127.0.0.1",
           port: askedPorts(options, ["pendant"])["pendant"] ?? 0,

@@ -293,8 +293,8 @@ async function robotOver(
 }
 
 /**
- * Commands a robot as long as `act` lasts: lease, enabling switch and signs of life are this process's, Ctrl-C stops the robot.
- * Says the outcome on standard output.
+ * Commands a robot as long as `act` lasts: lease, enabling switch and signs of life are this process's, Ctrl-C stops
+ * the robot. Says the outcome on standard output.
  */
 export async function commandAt(
   options: Given,

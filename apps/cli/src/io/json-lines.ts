@@ -1,7 +1,10 @@
 import { createInterface } from "node:readline";
 import { UseFault } from "./usage.ts";
 
-/** Standard input line by line as JSON values; blank lines are passed over. A line that is no JSON is a `UseFault` that names it. */
+/**
+ * Standard input line by line as JSON values; blank lines are passed over. A line that is no JSON is a `UseFault` that
+ * names it.
+ */
 export async function* jsonLines(): AsyncGenerator<{ readonly line: number; readonly value: unknown }> {
   let line = 0;
   for await (const text of createInterface({ input: process.stdin, crlfDelay: Infinity })) {

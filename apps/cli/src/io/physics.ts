@@ -36,8 +36,8 @@ export interface PhysicsPlay {
 }
 
 /**
- * Carries out a program with contact, one JSON line each period; what happened since the last line is in its "events". What is
- * assumed and how it ended goes to standard error.
+ * Carries out a program with contact, one JSON line each period; what happened since the last line is in its "events".
+ * What is assumed and how it ended goes to standard error.
  */
 export async function playWithPhysics({
   scene,

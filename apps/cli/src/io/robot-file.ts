@@ -79,8 +79,9 @@ async function fromTable(path: string, base: string | undefined, tip: string | u
 }
 
 /**
- * A file says nothing of what controls its arm, and its name is anybody's choice. An arm with the kinematics and limits of a
- * library robot is that robot: it gets its id, its home and its vendor's world; any other keeps the name of its file.
+ * A file says nothing of what controls its arm, and its name is anybody's choice. An arm with the kinematics and limits
+ * of a library robot is that robot: it gets its id, its home and its vendor's world; any other keeps the name of its
+ * file.
  */
 function identified(robot: Robot): Robot {
   const known = libraryRobotOf(robot);
@@ -127,8 +128,8 @@ function fromData(path: string, data: unknown, base: string | undefined, tip: st
 }
 
 /**
- * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed step from
- * there. Another tip becomes the arm's own flange.
+ * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed
+ * step from there. Another tip becomes the arm's own flange.
  */
 function fromDescription(
   path: string,

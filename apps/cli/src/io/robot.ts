@@ -37,7 +37,10 @@ export interface ChosenRobot {
   solids(): { readonly solids: readonly LinkSolid[]; readonly notes: readonly string[] };
 }
 
-/** `--robot R [--base LINK] [--tip LINK] [--arg name:=value]…`: R is a library id or the path of a URDF, xacro, D-H table or robot file. */
+/**
+ * `--robot R [--base LINK] [--tip LINK] [--arg name:=value]…`: R is a library id or the path of a URDF, xacro, D-H
+ * table or robot file.
+ */
 export async function robotOf(options: Given, wanted = options.text("robot")): Promise<ChosenRobot> {
   const base = options.text("base");
   const tip = options.text("tip");
@@ -64,8 +67,8 @@ export interface RobotToRun {
 }
 
 /**
- * The robot of `--robot`, or undefined where none is given. A program counts its poses from the robot's base: with `--base` the
- * arm stands in that frame. What could not be loaded of its meshes is said on standard error.
+ * The robot of `--robot`, or undefined where none is given. A program counts its poses from the robot's base: with
+ * `--base` the arm stands in that frame. What could not be loaded of its meshes is said on standard error.
  */
 export async function programRobot(options: Given): Promise<RobotToRun | undefined> {
   if (options.text("robot") === undefined) {

@@ -45,7 +45,10 @@ export function shapeOptions(options: Given): Pick<ImportOptions, "metresPerUnit
   return { metresPerUnit, daeUp: up };
 }
 
-/** What is at a path as imported parts, one answer for every file. What is not understood is a `UseFault` with the file's name. */
+/**
+ * What is at a path as imported parts, one answer for every file. What is not understood is a `UseFault` with the
+ * file's name.
+ */
 export async function readShapes(path: string, options: Given): Promise<readonly Imported[]> {
   const { files, paths } = sourceOf(path);
   if (paths.length === 0)

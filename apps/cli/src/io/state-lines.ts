@@ -22,7 +22,9 @@ const textOf = (value: unknown): string => (typeof value === "string" ? value : 
 const listOf = (value: unknown): number[] =>
   Array.isArray(value) ? value.filter(each => typeof each === "number" && Number.isFinite(each)) : [];
 
-/** Reads state lines one after the other; times may not fall back. What a line does not say is as in the line before. */
+/**
+ * Reads state lines one after the other; times may not fall back. What a line does not say is as in the line before.
+ */
 export function stateLines(robot: Robot): (value: unknown, line: number) => StateLine {
   let sequence = 0;
   let last: JointSample | null = null;

@@ -19,8 +19,9 @@ export interface TextProject {
 }
 
 /**
- * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a file are found
- * beside it: those of the same name with another ending of the language (program.src has its program.dat).
+ * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a
+ * file are found beside it: those of the same name with another ending of the language (program.src has its
+ * program.dat).
  */
 export async function textProject(paths: readonly string[], language: string | undefined): Promise<TextProject> {
   const [first] = paths;

@@ -44,7 +44,9 @@ export interface ApiRobots {
   /** With a lease of that robot; `onGone` is told the function that stops it when whoever asked is gone. */
   command(token: string, robot: string, request: Request, onGone?: (stop: () => void) => void): Promise<CommandOutcome>;
   holds(token: string, robot: string): boolean;
-  /** Signs of life of those who have a lease by HTTP: their open connection is one, and without a motion none is needed. */
+  /**
+   * Signs of life of those who have a lease by HTTP: their open connection is one, and without a motion none is needed.
+   */
   beat(): void;
   close(): void;
 }
@@ -213,7 +215,10 @@ export function createApiRobots(host: RobotServer, scheduler: Scheduler): ApiRob
   };
 }
 
-/** That scheduler, with `before` called before each tick: leases by HTTP are alive whenever a guard looks, however late a tick comes. */
+/**
+ * That scheduler, with `before` called before each tick: leases by HTTP are alive whenever a guard looks, however late
+ * a tick comes.
+ */
 export function schedulerWith(scheduler: Scheduler, before: () => void): Scheduler {
   return {
     now_s: () => scheduler.now_s(),

@@ -20,7 +20,10 @@ const inWords = (problem: unknown): Error => {
   return new Error(WHY[code] ?? (problem instanceof Error ? problem.message : String(problem)));
 };
 
-/** A new file. Its bytes are with the operating system when `write` returns, so that only a crash of the machine itself can lose them. */
+/**
+ * A new file. Its bytes are with the operating system when `write` returns, so that only a crash of the machine itself
+ * can lose them.
+ */
 export function newFile(path: string): FileSink {
   let file: number;
   let position = 0;
@@ -95,8 +98,9 @@ export function recordingFolderOf(id: string): string {
 }
 
 /**
- * Deletes what is too old or empty among the recordings of robots that are not recorded now, and folders of theirs that are empty: one that
- * never comes back leaves nothing for ever. Files that are not recordings stay, and so do their folders.
+ * Deletes what is too old or empty among the recordings of robots that are not recorded now, and folders of theirs that
+ * are empty: one that never comes back leaves nothing for ever. Files that are not recordings stay, and so do their
+ * folders.
  *
  * @param recorded  names of folders that are written to; their own archive keeps them tidy.
  */

@@ -1,7 +1,10 @@
 import { readConnectionEvent, type RobotServer } from "@twincell/protocol";
 import type { AuditLog } from "./audit-log.ts";
 
-/** Writes every act at the robots of a host into the log: when it was asked for where it is a command, and what became of it. */
+/**
+ * Writes every act at the robots of a host into the log: when it was asked for where it is a command, and what became
+ * of it.
+ */
 export function auditHost(host: RobotServer, log: AuditLog, onTrouble: (sentence: string) => void): () => void {
   const listener = host.join("audit", {
     send(text) {

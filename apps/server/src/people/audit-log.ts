@@ -83,8 +83,8 @@ export interface AuditLog {
 }
 
 /**
- * Opens the log of a data folder to write at its end. What a crash left unfinished is taken away and said in the next line; a log that was
- * changed is not written on: throws with one sentence.
+ * Opens the log of a data folder to write at its end. What a crash left unfinished is taken away and said in the next
+ * line; a log that was changed is not written on: throws with one sentence.
  */
 export function openAuditLog(
   data: string,

@@ -3,7 +3,10 @@ import { mkdirSync, readFileSync, renameSync, statSync, writeFileSync } from "no
 import { join } from "node:path";
 import type { ApiRoute } from "@twincell/protocol";
 
-/** What somebody may do: everybody looks and stops; programmers change programs and cells; operators command robots; admins do all. */
+/**
+ * What somebody may do: everybody looks and stops; programmers change programs and cells; operators command robots;
+ * admins do all.
+ */
 export const ROLES = ["viewer", "programmer", "operator", "admin"] as const;
 export type Role = (typeof ROLES)[number];
 export const mayUse = (role: Role, access: ApiRoute["access"]): boolean =>
@@ -27,7 +30,10 @@ const FORMAT = "twincell.tokens";
 const hashOf = (token: string): string => createHash("sha256").update(token).digest("hex");
 const fileOf = (data: string): string => join(data, "tokens.json");
 
-/** The tokens of a data folder. Throws with one sentence when the file is there and cannot be understood: nobody is let in by guess. */
+/**
+ * The tokens of a data folder. Throws with one sentence when the file is there and cannot be understood: nobody is let
+ * in by guess.
+ */
 export function readTokens(data: string): readonly TokenEntry[] {
   let text: string;
   try {

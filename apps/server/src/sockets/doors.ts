@@ -11,8 +11,8 @@ export interface Route {
 }
 
 /**
- * Lets pages of this server in by several doors. A page of another origin could ride on a cookie, so it is turned away: a
- * browser says honestly where a page came from.
+ * Lets pages of this server in by several doors. A page of another origin could ride on a cookie, so it is turned away:
+ * a browser says honestly where a page came from.
  *
  * @param allowed  whether that request may come in at all: the access code of the local network.
  */

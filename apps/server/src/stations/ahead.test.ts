@@ -127,7 +127,8 @@ describe.each(brands)("T-63 ahead of a %s", brand => {
       const samples = heard("sample");
       const ghosts = heard("ahead").filter(({ message }) => message.ahead !== null && message.ahead.in_s > 0.99);
       expect(ghosts.length).toBeGreaterThan(20);
-      // As near as controllers keep to a plan that is not theirs: most of the time it is there within 0.6 s of the time said: a controller that takes one motion after the other rests between them.
+      // As near as controllers keep to a plan that is not theirs: most of the time it is there within 0.6 s of the time
+      // said: a controller that takes one motion after the other rests between them.
       const far = ghosts
         .map(({ at_s, message: { ahead } }) =>
           Math.min(

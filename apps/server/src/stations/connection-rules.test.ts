@@ -8,7 +8,10 @@ afterEach(() => {
   for (const close of open.splice(0)) close();
 });
 
-/** Opens a UR at that address, or a virtual one without any, on a server with those rules; a real one is never connected to. */
+/**
+ * Opens a UR at that address, or a virtual one without any, on a server with those rules; a real one is never connected
+ * to.
+ */
 async function opened(rules: ConnectionRules, host?: string): Promise<CommandOutcome> {
   const scheduler = manualScheduler();
   const server = stationHost(scheduler, "test", undefined, rules);

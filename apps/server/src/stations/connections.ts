@@ -85,8 +85,8 @@ function openRequest(
 }
 
 /**
- * Opens and connects the robots of a file. One that is refused or does not answer is said with its name and keeps no other from
- * being opened; a controller that does not answer is asked again until it does or its robot is closed.
+ * Opens and connects the robots of a file. One that is refused or does not answer is said with its name and keeps no
+ * other from being opened; a controller that does not answer is asked again until it does or its robot is closed.
  */
 export function restoreConnections(
   host: RobotServer,

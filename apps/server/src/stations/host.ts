@@ -26,7 +26,10 @@ const noRobot = (id: string): OpenedConnection =>
     sentence: `There is no robot “${id}” in the library.`,
     hint: "Choose one of the library.",
   });
-/** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
+/**
+ * Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own
+ * period).
+ */
 const HEARTBEAT_S = 0.08;
 
 /** Which controllers a server opens for whoever is in. */

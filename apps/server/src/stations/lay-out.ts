@@ -13,8 +13,8 @@ const failed = (problem: string): PreparedJob => {
 };
 
 /**
- * Lays programs out in a thread of its own, one after the other, so that no link of a station waits for a plan. The thread is
- * made when it is first wanted, made again after it has died, and keeps no process alive.
+ * Lays programs out in a thread of its own, one after the other, so that no link of a station waits for a plan. The
+ * thread is made when it is first wanted, made again after it has died, and keeps no process alive.
  */
 export function prepareJobInWorker(): { readonly layOut: PrepareJob; close(): void } {
   const waiting = new Map<number, (laid: PreparedJob) => void>();

@@ -13,8 +13,9 @@ import { lines } from "./lines.ts";
 /** What a plug-in calls its one robot. */
 const STATION = "robot";
 /**
- * Without a sample for this long the link is lost; a sign of life goes out this often [s]. Shorter than the pause before a lost link is
- * tried again (0.25 s): the guard goes by silence, and a plug-in that comes back at once must not come back unnoticed.
+ * Without a sample for this long the link is lost; a sign of life goes out this often [s]. Shorter than the pause
+ * before a lost link is tried again (0.25 s): the guard goes by silence, and a plug-in that comes back at once must not
+ * come back unnoticed.
  */
 const STALE_S = 0.2;
 const ALIVE_S = 0.05;
@@ -43,8 +44,9 @@ interface Session {
 }
 
 /**
- * A robot whose driver is somebody else's process. It is spoken with in the messages of `@twincell/protocol`, one JSON text a line, over
- * TCP: the process is the host of one station, this side is who commands. How it speaks with its robot is its own affair.
+ * A robot whose driver is somebody else's process. It is spoken with in the messages of `@twincell/protocol`, one JSON
+ * text a line, over TCP: the process is the host of one station, this side is who commands. How it speaks with its
+ * robot is its own affair.
  */
 export function createPlugInAdapter({ robot, scheduler, network, host, ports }: AdapterOptions): ControllerAdapter {
   const port = ports?.["plug-in"] ?? PLUG_IN_PORT;
@@ -52,7 +54,10 @@ export function createPlugInAdapter({ robot, scheduler, network, host, ports }: 
   /** `complaint`: what an order without an answer of its own came to, told with the states until the next motion. */
   let session: Session | null = null;
   let complaint = "";
-  /** Number of the last sample handed on: a plug-in that was started again counts from its beginning, and its clock may go on. */
+  /**
+   * Number of the last sample handed on: a plug-in that was started again counts from its beginning, and its clock may
+   * go on.
+   */
   let last = 0;
 
   async function open(events: AdapterEvents): Promise<Opened> {

@@ -25,7 +25,10 @@ if (noPython) console.warn("T-60 is not shown here: there is no python3.");
 const script = fileURLToPath(new URL("testing/plug_in.py", import.meta.url));
 const TARGET = [0.3, 0.1, -0.1, 0.2, -0.2, 0.1];
 
-/** Goes with the machine's clock, but a stall of this process, which is the test's and not the robot's, is not counted: the guard would stop for it. */
+/**
+ * Goes with the machine's clock, but a stall of this process, which is the test's and not the robot's, is not counted:
+ * the guard would stop for it.
+ */
 function patientClock(): Scheduler & { close(): void } {
   const due = new Set<{ at_s: number; readonly period_s: number; readonly tick: () => void }>();
   let now_s = 0;

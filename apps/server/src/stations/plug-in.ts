@@ -3,7 +3,10 @@ import type { Robot } from "@twincell/core";
 import { PLUG_IN, PLUG_IN_PORT } from "@twincell/protocol";
 import { createPlugInAdapter } from "./plug-in-face.ts";
 
-/** A maker's own driver as a brand for that robot, whoever makes it. There is no virtual controller: what a plug-in does is not known here. */
+/**
+ * A maker's own driver as a brand for that robot, whoever makes it. There is no virtual controller: what a plug-in does
+ * is not known here.
+ */
 export const plugInFor = (robot: Robot): DriverKind => ({
   id: PLUG_IN,
   name: "Plug-in",

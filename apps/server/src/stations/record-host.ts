@@ -17,8 +17,8 @@ interface Surroundings {
 }
 
 /**
- * Records every station of that host to a folder of its own, file after file, until it is closed. When a station can't be recorded
- * everybody who looks at it is told once, and once more when it goes on.
+ * Records every station of that host to a folder of its own, file after file, until it is closed. When a station can't
+ * be recorded everybody who looks at it is told once, and once more when it goes on.
  */
 export async function recordServer(
   host: RobotServer,

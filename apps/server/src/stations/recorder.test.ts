@@ -118,7 +118,8 @@ test.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
     await scheduler.elapse(6);
     const outcome = await Promise.race([moving, Promise.resolve({ kind: "still moving" as const })]);
     const first = told.slice(before).find(message => message.type === "sample" && message.moving);
-    // Everything that operators do belongs to the history: also what another one is refused, does at the cabinet, and stops.
+    // Everything that operators do belongs to the history: also what another one is refused, does at the cabinet, and
+    // stops.
     void boris.ask({ type: "zero", station: "cell" });
     void boris.ask({ type: "pendant", station: "cell", act: { do: "guard", open: true } });
     boris.stop("cell", true);

@@ -48,8 +48,8 @@ interface Recorded {
 }
 
 /**
- * Records every station of a host, as one more who listens to it: samples with the controller's own time, the link with its
- * lateness, who commands, stops of the guard, refusals (rows T-54, T-61). It asks for nothing but the time.
+ * Records every station of a host, as one more who listens to it: samples with the controller's own time, the link with
+ * its lateness, who commands, stops of the guard, refusals (rows T-54, T-61). It asks for nothing but the time.
  */
 export function recordStations(channel: Channel, options: StationRecorderOptions): StationRecorder {
   const stations = new Map<string, Recorded>();

@@ -1,4 +1,7 @@
-/** Programs on top of the Rx90 class of luismarzo/rx90, which moves a real RX90 by the monitor of V+: its serial port is a socket here. */
+/**
+ * Programs on top of the Rx90 class of luismarzo/rx90, which moves a real RX90 by the monitor of V+: its serial port is
+ * a socket here.
+ */
 
 /** What the class uses of LibSerial: a stream of characters that is opened by a name, here `ADDRESS:PORT`. */
 export const SERIAL_STREAM = `#pragma once

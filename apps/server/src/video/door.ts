@@ -5,8 +5,8 @@ import type { Route } from "../sockets/doors.ts";
 const MAX_WAITING = 8 * 1024 * 1024;
 
 /**
- * Lets cameras and viewers into the relay: a line and a memory of their own, apart from the stations'. What a viewer has not
- * taken is bounded by the relay (two pictures); what it does not take at all ends its line.
+ * Lets cameras and viewers into the relay: a line and a memory of their own, apart from the stations'. What a viewer
+ * has not taken is bounded by the relay (two pictures); what it does not take at all ends its line.
  */
 export function videoRoute(relay: VideoRelay): Route {
   return {

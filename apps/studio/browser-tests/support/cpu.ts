@@ -34,9 +34,9 @@ const SCRIPT = new Set([
 const TASK = "ThreadControllerImpl::RunTask";
 
 /**
- * Processor time of the page's main thread from the browser's own trace. Unlike the wall's clock it stands still while other
- * processes have the core, so that the same script costs the same on a busy machine; handing WebGL calls over is in it, what
- * the rasteriser does with them is not.
+ * Processor time of the page's main thread from the browser's own trace. Unlike the wall's clock it stands still while
+ * other processes have the core, so that the same script costs the same on a busy machine; handing WebGL calls over is
+ * in it, what the rasteriser does with them is not.
  */
 export async function cpuDuring(page: Page, act: () => Promise<unknown>): Promise<CpuReading> {
   const session = await page.context().newCDPSession(page);

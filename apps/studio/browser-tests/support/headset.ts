@@ -11,7 +11,9 @@ declare global {
 export type Side = "left" | "right";
 type Turn = readonly [number, number, number, number];
 
-/** A person in an emulated headset: everything is said in the z-up world, and waits for rendered frames, never for time. */
+/**
+ * A person in an emulated headset: everything is said in the z-up world, and waits for rendered frames, never for time.
+ */
 export class Person {
   readonly page: Page;
   constructor(page: Page) {
@@ -19,8 +21,8 @@ export class Person {
   }
 
   /**
-   * Enters as a person does, with the button, and waits until the two hands are there. The emulated display is as large as
-   * the emulator believes the window to be: small, since every pixel of it is drawn by the processor.
+   * Enters as a person does, with the button, and waits until the two hands are there. The emulated display is as large
+   * as the emulator believes the window to be: small, since every pixel of it is drawn by the processor.
    */
   async enter(width = 400, height = 240): Promise<void> {
     const kept = await this.page.evaluateHandle(

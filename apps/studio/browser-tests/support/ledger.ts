@@ -1,6 +1,9 @@
 /** What the page's main thread did in the frames since `reset`, script and WebGL calls apart [ms]. */
 export interface LedgerReading {
-  /** Own script of each frame: callbacks of frames, timers, messages, events and microtasks, without the WebGL calls inside. */
+  /**
+   * Own script of each frame: callbacks of frames, timers, messages, events and microtasks, without the WebGL calls
+   * inside.
+   */
   readonly script_ms: readonly number[];
   /** Time inside WebGL calls of each frame; without a graphics card it is the rasteriser's. */
   readonly gl_ms: readonly number[];
@@ -26,10 +29,10 @@ declare global {
 }
 
 /**
- * Runs in the page before anything else and wraps every way into our script (frames, timers, messages, events, microtasks)
- * and every WebGL call, so that a frame's cost does not rest on what the program under test says of itself. A frame is what
- * happens from the first frame callback to the next frame's. Reactions to promises are not seen; the sum is compared with the
- * browser's own count by who reads it.
+ * Runs in the page before anything else and wraps every way into our script (frames, timers, messages, events,
+ * microtasks) and every WebGL call, so that a frame's cost does not rest on what the program under test says of itself.
+ * A frame is what happens from the first frame callback to the next frame's. Reactions to promises are not seen; the
+ * sum is compared with the browser's own count by who reads it.
  */
 function install(asTheyAre: boolean): void {
   const now = performance.now.bind(performance);

@@ -23,8 +23,8 @@ const FLAGS = [
 ];
 
 /**
- * A camera that films the studio itself: the browser captures the page of that title, as a phone before the screen would, so that
- * what the studio shows comes back in the picture. `getUserMedia` takes the browser's made-up camera.
+ * A camera that films the studio itself: the browser captures the page of that title, as a phone before the screen
+ * would, so that what the studio shows comes back in the picture. `getUserMedia` takes the browser's made-up camera.
  */
 export const CAMERA_FLAGS = [
   "--auto-select-tab-capture-source-by-title=Twincell",

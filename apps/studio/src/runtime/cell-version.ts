@@ -1,8 +1,8 @@
 import { saveDocument, type CellDocument } from "@twincell/project";
 
 /**
- * A number that changes with every change of the cell, to tell a recording of this cell from one of another: FNV-1a over
- * its saved text, twice with different beginnings, 64 bits together.
+ * A number that changes with every change of the cell, to tell a recording of this cell from one of another: FNV-1a
+ * over its saved text, twice with different beginnings, 64 bits together.
  *
  * @see Fowler, Noll, Vo, draft-eastlake-fnv.
  */

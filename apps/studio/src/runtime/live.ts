@@ -5,7 +5,10 @@ import { copyPose, identity, type Pose, type Robot } from "@twincell/core";
  * Whoever is in charge (jog, play, twin, history) writes through `showJoints`; the scene and the read-outs only read.
  */
 export interface Live {
-  /** Joint angles shown now, as many as the robot has joints [rad]. Written in place; another array after another robot came. */
+  /**
+   * Joint angles shown now, as many as the robot has joints [rad]. Written in place; another array after another robot
+   * came.
+   */
   q_rad: Float64Array;
   readonly baseFromFlange: Pose<"base", "flange">;
   readonly worldFromTcp: Pose<"world", "tcp">;
@@ -35,7 +38,9 @@ export interface LivePoses {
   tcp(baseFromFlange: Pose<"base", "flange">, out: Pose<"world", "tcp">): void;
 }
 let poses: LivePoses | undefined;
-/** Called once per robot and tool by whoever owns the cell document. `atHome`: the robot begins at its home position. */
+/**
+ * Called once per robot and tool by whoever owns the cell document. `atHome`: the robot begins at its home position.
+ */
 export function followPoses(robot: Robot, how: LivePoses, atHome = false): void {
   poses = how;
   if (live.q_rad.length !== robot.arm.joints.length) live.q_rad = Float64Array.from(robot.home_rad);

@@ -39,7 +39,10 @@ async function ask(request: ShapeRequest, transfer: readonly ArrayBuffer[]): Pro
   }
 }
 
-/** Reads shapes, robot descriptions and archives of them away from the page, puts their parts into the cell and shows the report. */
+/**
+ * Reads shapes, robot descriptions and archives of them away from the page, puts their parts into the cell and shows
+ * the report.
+ */
 export async function importShapes(files: readonly FileAt[]): Promise<void> {
   const name = files[0]?.file.name ?? "";
   shapeStore.setState({ busy: { file: name, what: "reading" }, shown: null });

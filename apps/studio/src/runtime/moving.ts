@@ -25,8 +25,8 @@ const somethingToLeave = (): boolean =>
 const TWICE_MS = 600;
 
 /**
- * What Esc means, press by press: while something moves it stops; otherwise it leaves one level and stops nothing. Pressed twice
- * with nothing to leave it stops all the same: a robot may move of which nothing is known here.
+ * What Esc means, press by press: while something moves it stops; otherwise it leaves one level and stops nothing.
+ * Pressed twice with nothing to leave it stops all the same: a robot may move of which nothing is known here.
  */
 export function escapeRule(): (now_ms: number) => "stop" | "leave" {
   let last_ms = -Infinity;

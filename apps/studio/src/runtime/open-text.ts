@@ -13,8 +13,8 @@ import { words } from "../messages/index.ts";
 const isBinary = ({ text }: TextFile): boolean => text.slice(0, 4096).includes("\u0000");
 
 /**
- * The chosen files together become one program of the cell, byte for byte, as one undo step. One sentence says why when they do
- * not; nothing changes then.
+ * The chosen files together become one program of the cell, byte for byte, as one undo step. One sentence says why when
+ * they do not; nothing changes then.
  */
 export function openTextFiles(files: readonly { readonly name: string; readonly bytes: Uint8Array }[]): boolean {
   const { document } = cellStore.getState();

@@ -153,7 +153,10 @@ export const selectedPoint = (): TextPoint | undefined => {
   return pointAt(pointsOf(state), state.cursor);
 };
 
-/** Rewrites the point under the cursor for where the robot stands now: that point alone, as one undo step. Resolves when it is done. */
+/**
+ * Rewrites the point under the cursor for where the robot stands now: that point alone, as one undo step. Resolves when
+ * it is done.
+ */
 export async function touchUpSelected(): Promise<boolean> {
   const { document } = cellStore.getState();
   const text = textOf(document);

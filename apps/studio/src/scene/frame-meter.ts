@@ -12,7 +12,10 @@ export class FrameMeter {
   #script = 0;
   #draw = 0;
 
-  /** Script time spent on behalf of the frame under way: frame callbacks, pointer events, the heartbeat, the controller's cycle. */
+  /**
+   * Script time spent on behalf of the frame under way: frame callbacks, pointer events, the heartbeat, the
+   * controller's cycle.
+   */
   addScript(ms: number): void {
     this.#script += ms;
   }

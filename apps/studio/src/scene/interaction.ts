@@ -3,7 +3,9 @@ import { Vector2 } from "three";
 
 export type HandlePart = "x" | "y" | "z" | "yz" | "zx" | "xy" | "free" | "rx" | "ry" | "rz";
 
-/** What the pointer is doing, shared by everything that listens to it. Mutable: read in the frame loop, never by React. */
+/**
+ * What the pointer is doing, shared by everything that listens to it. Mutable: read in the frame loop, never by React.
+ */
 export interface Interaction {
   /** Pointer in normalised device coordinates and in CSS pixels of the canvas. */
   readonly ndc: Vector2;

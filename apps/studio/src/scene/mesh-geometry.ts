@@ -6,8 +6,8 @@ const CREASE_RAD = 0.72;
 const GRAIN_M = 1e-6;
 
 /**
- * A drawable geometry: shaded smooth up to the crease angle. Normals are weighted by area, so that large flat faces stay
- * flat and only the bevels beside them bend.
+ * A drawable geometry: shaded smooth up to the crease angle. Normals are weighted by area, so that large flat faces
+ * stay flat and only the bevels beside them bend.
  */
 export function meshGeometry(mesh: TriangleMesh): BufferGeometry {
   const corners = mesh.indices.length;

@@ -1,4 +1,7 @@
-/** Where in the viewport the picture-in-picture is drawn [CSS pixels from its top left]. Written by the DOM, read by the frame loop. */
+/**
+ * Where in the viewport the picture-in-picture is drawn [CSS pixels from its top left]. Written by the DOM, read by the
+ * frame loop.
+ */
 export interface PictureFrame {
   visible: boolean;
   left: number;

@@ -5,7 +5,9 @@ import { onDrawThumbnail, THUMBNAIL } from "../runtime/thumbnail.ts";
 const TYPE = "image/webp";
 const QUALITY = 0.82;
 
-/** Draws the cell once more when asked, and takes the middle of it as its small picture. Does nothing frame by frame. */
+/**
+ * Draws the cell once more when asked, and takes the middle of it as its small picture. Does nothing frame by frame.
+ */
 export function Thumbnail() {
   const gl = useThree(state => state.gl);
   const scene = useThree(state => state.scene);

@@ -1,7 +1,10 @@
 import type { Vector3 as WorldVector } from "@twincell/core";
 import type { Vector3 } from "three";
 
-/** three's y-up scene to the z-up world: the only place where the two meet, besides the rotated group that holds the world. */
+/**
+ * three's y-up scene to the z-up world: the only place where the two meet, besides the rotated group that holds the
+ * world.
+ */
 export function toWorld(scene: Vector3, out: WorldVector): WorldVector {
   out[0] = scene.x;
   out[1] = -scene.z;

@@ -17,7 +17,10 @@ const POINTER = "twincell.cell.current";
 const WAIT_MS = 400;
 /** The open cell goes to the library of cells when this long has gone by, and when another is opened. */
 const LIBRARY_MS = 20_000;
-/** Which cell of the library a copy is of; written before the copy, so that the pointer never names a copy of another cell. */
+/**
+ * Which cell of the library a copy is of; written before the copy, so that the pointer never names a copy of another
+ * cell.
+ */
 const idKey = (copy: string): string => `${copy}.id`;
 
 /** Opens what was kept, else the newest cell of the library, else the example. Says so when a copy was damaged. */

@@ -3,7 +3,10 @@ import { openDocument, type Opened } from "@twincell/project";
 
 let loading: Promise<void> | undefined;
 
-/** Makes the robots of the catalogue known to the page: their data are a file of their own, which the start does not wait for. */
+/**
+ * Makes the robots of the catalogue known to the page: their data are a file of their own, which the start does not
+ * wait for.
+ */
 export function loadCatalogue(): Promise<void> {
   loading ??= import("@twincell/core/catalogue").then(
     ({ CATALOGUE }) => {

@@ -4,7 +4,10 @@ import { createStore } from "zustand/vanilla";
 export interface ConnectionState {
   /** The connected controller; null: the simulated one of the page. */
   readonly station: string | null;
-  /** "live": the robot on screen is the twin of the connected one. "clone": it is moved and taught, and the twin stays where the robot is. */
+  /**
+   * "live": the robot on screen is the twin of the connected one. "clone": it is moved and taught, and the twin stays
+   * where the robot is.
+   */
   readonly view: "live" | "clone";
   /** The enabling switch of the pendant is held. */
   readonly enabled: boolean;

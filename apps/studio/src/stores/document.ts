@@ -30,8 +30,8 @@ function publish(next: History): void {
 export const showDocument = (document: CellDocument): void => publish(createHistory(inStep(document)));
 
 /**
- * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can be
- * checked, exported and run by itself.
+ * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can
+ * be checked, exported and run by itself.
  */
 export function inStep(changed: CellDocument): CellDocument {
   const document = followObjects(changed);
@@ -84,13 +84,17 @@ const executed = new WeakMap<
   { readonly robot: CellDocument["robot"]; readonly program: Program | null }
 >();
 
-/** Keeps what a text does once it has been executed: from then on it is planned, checked and played like taught steps. */
+/**
+ * Keeps what a text does once it has been executed: from then on it is planned, checked and played like taught steps.
+ */
 export function keepExecuted(text: TextProgram, robot: CellDocument["robot"], program: Program | null): void {
   executed.set(text, { robot, program });
   cellStore.setState(({ executions }) => ({ executions: executions + 1 }));
 }
 
-/** The program being worked on: taught steps, or the steps that a vendor's text does; null until that has been executed. */
+/**
+ * The program being worked on: taught steps, or the steps that a vendor's text does; null until that has been executed.
+ */
 export function programOf(document: CellDocument | null): Program | null {
   if (!document) return null;
   const steps = selectedProgram(document);

@@ -1,6 +1,9 @@
 import { createStore } from "zustand/vanilla";
 
-/** Whether a headset can be entered, and if not, why: for the button and its tip. `null` while the browser is being asked. */
+/**
+ * Whether a headset can be entered, and if not, why: for the button and its tip. `null` while the browser is being
+ * asked.
+ */
 export interface HeadsetState {
   readonly ready: boolean | null;
   readonly reason: string;

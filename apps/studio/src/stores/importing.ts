@@ -6,7 +6,9 @@ import { robotOf } from "./document.ts";
 import { notify } from "./notices.ts";
 import { addSteps } from "./program.ts";
 
-/** A vendor's program text becomes steps behind the selected one. Returns what was not understood, one sentence each. */
+/**
+ * A vendor's program text becomes steps behind the selected one. Returns what was not understood, one sentence each.
+ */
 export function importText(text: string, name: string): readonly string[] {
   const { document } = cellStore.getState();
   const robot = robotOf(document);
@@ -47,7 +49,10 @@ export function importParsed({ program, warnings }: Extract<Parsed, { kind: "par
   return added;
 }
 
-/** Routines of a text beside those of the program, under ids of their own; one whose name is taken stays as the program has it. */
+/**
+ * Routines of a text beside those of the program, under ids of their own; one whose name is taken stays as the program
+ * has it.
+ */
 function withRoutines(before: Program, routines: Program["routines"]): Program["routines"] {
   let so = before;
   for (const [name, steps] of Object.entries(routines))

@@ -32,7 +32,10 @@ export function languagesOf(robot: Robot): readonly SupportedRobot[] {
   return all;
 }
 
-/** The language a program of this robot is written in: the chosen one, else the first its controller understands; null when there is none. */
+/**
+ * The language a program of this robot is written in: the chosen one, else the first its controller understands; null
+ * when there is none.
+ */
 export function languageOf(robot: Robot | null, { chosen }: LanguageState = languageStore.getState()): Dialect | null {
   const own = robot === null ? [] : languagesOf(robot).filter(each => each.why === null);
   return (own.find(each => each.dialect.id === chosen[robot?.id ?? ""]) ?? own[0])?.dialect ?? null;

@@ -64,16 +64,20 @@ export type Fetched =
   | { readonly kind: "missing"; readonly sentence: string };
 
 /**
- * All cells of this browser. Each version is a text under a key of its own and each cell has a record of its own, so that a page
- * closed in the middle of a write can spoil nothing but that write. A content is written before the record that names it; a
- * record that is missing or damaged is made anew from the contents. What waits to be written stays in memory until it was.
+ * All cells of this browser. Each version is a text under a key of its own and each cell has a record of its own, so
+ * that a page closed in the middle of a write can spoil nothing but that write. A content is written before the record
+ * that names it; a record that is missing or damaged is made anew from the contents. What waits to be written stays in
+ * memory until it was.
  */
 export class CellLibrary {
   readonly #store: KeyValueStore;
   readonly #now_ms: () => number;
   readonly #newId: () => string;
   readonly #cells = new Map<string, StoredCell>();
-  /** What each cell held when it was last written, and cells written since this page was opened: these go on with their version. */
+  /**
+   * What each cell held when it was last written, and cells written since this page was opened: these go on with their
+   * version.
+   */
   readonly #written = new Map<string, string>();
   readonly #waiting = new Map<string, { readonly document: CellDocument; readonly facts: CellFacts }>();
   #queue: Promise<unknown> = Promise.resolve();

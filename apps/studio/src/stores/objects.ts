@@ -18,7 +18,10 @@ export function renameObject(id: string, name: string): boolean {
   );
 }
 
-/** A copy beside the first, under a name and id that are free; it is selected. @returns its id, or null when there is none. */
+/**
+ * A copy beside the first, under a name and id that are free; it is selected. @returns its id, or null when there is
+ * none.
+ */
 export function duplicateObject(id: string): string | null {
   const { document } = cellStore.getState();
   const object = theObject(id);

@@ -18,8 +18,8 @@ export function keepPresent(): void {
   if (document && current !== "") theLibrary()?.remember(current, document, factsNow());
 }
 /**
- * Opens another cell, under a new id unless it is one of the library. The one that was open is kept first: it is remembered here
- * and written before anything of the new one is.
+ * Opens another cell, under a new id unless it is one of the library. The one that was open is kept first: it is
+ * remembered here and written before anything of the new one is.
  */
 export function openCell(document: CellDocument, id?: string): void {
   keepPresent();
@@ -70,7 +70,9 @@ export async function trashCell(id: string): Promise<void> {
   await library.trash(id);
 }
 
-/** Opens a cell of the library, or one of its versions; the version becomes its newest state once it is changed or left. */
+/**
+ * Opens a cell of the library, or one of its versions; the version becomes its newest state once it is changed or left.
+ */
 export async function openStored(id: string, version?: number): Promise<boolean> {
   const library = theLibrary();
   if (!library) return false;

@@ -4,7 +4,9 @@ import { createStore } from "zustand/vanilla";
 export interface PhysicsState {
   /** Play carries the program out with contact. */
   readonly on: boolean;
-  /** "loading" fetches the engine and builds the cell; "held" is paused by a person; "stopped" by a zone or a sensor. */
+  /**
+   * "loading" fetches the engine and builds the cell; "held" is paused by a person; "stopped" by a zone or a sensor.
+   */
   readonly status: "idle" | "loading" | "running" | "held" | "stopped" | "paused" | "done";
   /** What happened last, newest first. */
   readonly said: readonly string[];

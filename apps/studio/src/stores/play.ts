@@ -16,7 +16,10 @@ export interface PlayState {
   readonly stale: boolean;
   /** The check itself could not be done: why. */
   readonly trouble: string | null;
-  /** Seconds; written at most ten times a second while playing (the frame loop keeps the exact time in `live/playhead.ts`). */
+  /**
+   * Seconds; written at most ten times a second while playing (the frame loop keeps the exact time in
+   * `live/playhead.ts`).
+   */
   readonly t_s: number;
   readonly playing: boolean;
   /** 0 … 1. 0 holds. */

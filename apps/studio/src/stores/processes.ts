@@ -1,8 +1,9 @@
 import type { TraceOptions } from "./trace.ts";
 
 /**
- * Row N-61: what a trace begins with, process by process. These are starting points from common practice, not the data of
- * any material, wire, nozzle or tool: whoever owns the process knows better, and every value can be changed afterwards.
+ * Row N-61: what a trace begins with, process by process. These are starting points from common practice, not the data
+ * of any material, wire, nozzle or tool: whoever owns the process knows better, and every value can be changed
+ * afterwards.
  */
 export const PROCESS_NAMES = [
   "arc-welding",

@@ -52,7 +52,10 @@ function insertSelected(program: Program, steps: readonly Step[]): Program {
 const edit = (label: string, change: (program: Program) => Program, gesture?: string): boolean =>
   commit(label, document => withProgram(document, change), gesture);
 
-/** Adds steps, selects the last of them and says whether there was a program to add them to. `settle` sees the cell with the steps in it, in the same undo step. */
+/**
+ * Adds steps, selects the last of them and says whether there was a program to add them to. `settle` sees the cell with
+ * the steps in it, in the same undo step.
+ */
 export function addSteps(
   label: string,
   make: (program: Program) => readonly Step[],

@@ -10,8 +10,8 @@ export const shortName = ({ name, vendor }: Robot): string =>
   name.startsWith(`${vendor} `) ? name.slice(vendor.length + 1) : name;
 
 /**
- * Another robot takes the place of the one in the cell: base, tools and objects stay, every program is taught anew for it.
- * One undo step. Says whether anything changed.
+ * Another robot takes the place of the one in the cell: base, tools and objects stay, every program is taught anew for
+ * it. One undo step. Says whether anything changed.
  */
 export function changeRobot(id: string): boolean {
   const { document } = cellStore.getState();

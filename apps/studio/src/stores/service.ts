@@ -1,6 +1,9 @@
 import { createStore } from "zustand/vanilla";
 
-/** What a joint may travel between two services [rad, or m of one that slides], by the id of the robot, base first; 0 where nobody said. */
+/**
+ * What a joint may travel between two services [rad, or m of one that slides], by the id of the robot, base first; 0
+ * where nobody said.
+ */
 export interface ServiceState {
   readonly travel: Readonly<Record<string, readonly number[]>>;
 }

@@ -6,7 +6,9 @@ export interface WatchState {
   readonly contacts: readonly (readonly [string, string])[];
   /** Objects the tool point touches. */
   readonly touched: readonly string[];
-  /** Metres to the nearest thing around the robot; Infinity when there is plenty of room, null before the first look. */
+  /**
+   * Metres to the nearest thing around the robot; Infinity when there is plenty of room, null before the first look.
+   */
   readonly clearance_m: number | null;
   readonly nearest: readonly [string, string];
   /** Time of one look in the worker. */

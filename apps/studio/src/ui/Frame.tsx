@@ -5,8 +5,8 @@ import { words } from "../messages/index.ts";
 
 /**
  * A dialog that leaves the top bar alone: not modal in the DOM's sense, so STOP and the controller chip stay
- * reachable by pointer, key and screen reader while it is open. `reading`: nothing in it takes the focus, so the body itself
- * does, to be scrolled by keys.
+ * reachable by pointer, key and screen reader while it is open. `reading`: nothing in it takes the focus, so the body
+ * itself does, to be scrolled by keys.
  */
 export function Frame({
   open,

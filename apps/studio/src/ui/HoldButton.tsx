@@ -1,8 +1,8 @@
 import { useEffect, useRef, type ReactNode } from "react";
 
 /**
- * Acts while held: by pointer, Space or Enter. Letting go, a cancelled touch, losing focus and leaving the page all end it
- * (the last two also through `releaseAll` of live/held.ts).
+ * Acts while held: by pointer, Space or Enter. Letting go, a cancelled touch, losing focus and leaving the page all end
+ * it (the last two also through `releaseAll` of live/held.ts).
  */
 export function HoldButton({
   label,

@@ -1,4 +1,7 @@
-/** What a number field is about; decides the unit when none is typed. Inside: metres, radians, seconds, metres a second, 1. */
+/**
+ * What a number field is about; decides the unit when none is typed. Inside: metres, radians, seconds, metres a second,
+ * 1.
+ */
 export type Quantity = "length" | "angle" | "time" | "speed" | "percent" | "plain";
 export type Typed =
   | { readonly kind: "value"; readonly value: number }

@@ -13,8 +13,8 @@ export interface EnablingSwitch {
 }
 
 /**
- * An enabling switch: pressed by pointer, or by Space while the focus is inside `area`, and only as long as it is held. A cancelled
- * touch, a lost focus of the page, a hidden tab and leaving the panel release it.
+ * An enabling switch: pressed by pointer, or by Space while the focus is inside `area`, and only as long as it is held.
+ * A cancelled touch, a lost focus of the page, a hidden tab and leaving the panel release it.
  */
 export function useEnablingSwitch(
   area: RefObject<HTMLElement | null>,

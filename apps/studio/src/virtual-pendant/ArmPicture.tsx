@@ -14,7 +14,9 @@ const across = (x: number, y: number): number => COS * y - SIN * x;
 const down = (x: number, y: number, z: number): number => -(UP * z - AWAY * (COS * x + SIN * y));
 const TRIAD = ["x", "y", "z"] as const;
 
-/** A picture of the arm in lines: joints where they are, as thick as arms are. Written by the read-out, not by React. */
+/**
+ * A picture of the arm in lines: joints where they are, as thick as arms are. Written by the read-out, not by React.
+ */
 export function ArmPicture({ link, joints }: { readonly link: VirtualPendantLink; readonly joints: number }) {
   const casing = useRef<SVGPolylineElement>(null);
   const paint = useRef<SVGPolylineElement>(null);

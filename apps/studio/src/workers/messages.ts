@@ -1,6 +1,9 @@
 import type { WatchedCell } from "@twincell/core";
 
-/** What the page tells the collision worker. Only the newest posture counts: the page sends one and waits for its answer. */
+/**
+ * What the page tells the collision worker. Only the newest posture counts: the page sends one and waits for its
+ * answer.
+ */
 export type ToWatcher =
   | { readonly kind: "cell"; readonly cell: WatchedCell; readonly edition: number }
   | { readonly kind: "look"; readonly q_rad: Float64Array };

@@ -1,7 +1,9 @@
 import type { GraspSignal, Program } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
 
-/** What the page tells the physics worker. Time passes only when the page lets it: one "advance" is under way at a time. */
+/**
+ * What the page tells the physics worker. Time passes only when the page lets it: one "advance" is under way at a time.
+ */
 export type ToPhysics =
   | { readonly kind: "start"; readonly edition: number; readonly document: CellDocument; readonly program: Program }
   | { readonly kind: "advance"; readonly edition: number; readonly dt_s: number; readonly override: number }

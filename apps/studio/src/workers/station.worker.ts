@@ -16,8 +16,8 @@ const TICK_S = 0.004;
 const MOST_S = 0.02;
 
 /**
- * The clock of the virtual controllers, their wires, drivers and guards. A worker that was kept from running is no link that
- * was lost: all of them stand still together, and go on together.
+ * The clock of the virtual controllers, their wires, drivers and guards. A worker that was kept from running is no link
+ * that was lost: all of them stand still together, and go on together.
  */
 const scheduler = manualScheduler();
 let last_s = performance.now() / 1000;

@@ -3,8 +3,8 @@ import kernelAddress from "occt-import-js/dist/occt-import-js.wasm?url";
 import { STEP_PARAMETERS, type OcctResult } from "@twincell/formats";
 
 /**
- * The CAD kernel, a WebAssembly module of its own, alone in a worker: it cannot be interrupted, and its memory never shrinks. Whoever
- * has had enough ends the worker. Answers with what it read, or with why it could not.
+ * The CAD kernel, a WebAssembly module of its own, alone in a worker: it cannot be interrupted, and its memory never
+ * shrinks. Whoever has had enough ends the worker. Answers with what it read, or with why it could not.
  */
 addEventListener("message", ({ data }: MessageEvent<Uint8Array>) => {
   void load({ locateFile: () => new URL(kernelAddress, import.meta.url).href })

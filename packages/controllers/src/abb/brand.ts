@@ -8,7 +8,10 @@ import { createVirtualAbb } from "./virtual/index.ts";
 const PORTS = { egm: EGM_PORT, rws: RWS_PORT };
 const REBOOT_S = 2;
 
-/** IRC5 controllers with RobotWare 6: externally guided motion, to a port of this machine, and Robot Web Services, on one of theirs. */
+/**
+ * IRC5 controllers with RobotWare 6: externally guided motion, to a port of this machine, and Robot Web Services, on
+ * one of theirs.
+ */
 export const abb: DriverKind = {
   id: "abb",
   name: "ABB",
@@ -28,7 +31,9 @@ export const abb: DriverKind = {
   face: ({ ports, ...options }) => abbAdapter({ ...options, ports: { ...PORTS, ...ports } }),
   virtual: options => start(options, true),
 };
-/** The same controllers where Robot Web Services are not those of RobotWare 6: EGM alone, which a person starts there. */
+/**
+ * The same controllers where Robot Web Services are not those of RobotWare 6: EGM alone, which a person starts there.
+ */
 export const abbOverEgm: DriverKind = {
   ...abb,
   id: "abb-egm",

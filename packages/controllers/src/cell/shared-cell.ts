@@ -42,7 +42,10 @@ export interface CellMember {
   readonly id: string;
   /** Where it is, and where it would stand if it were stopped now. Copied. */
   tell(q_rad: ArrayLike<number>, ahead_rad: ArrayLike<number>): void;
-  /** Whether its guard moves it now, and could stop it: only then does it have others to go before it, or go before others. */
+  /**
+   * Whether its guard moves it now, and could stop it: only then does it have others to go before it, or go before
+   * others.
+   */
   guarded: boolean;
   /** Where its plan has it so many seconds from now; false where nobody knows. Set while a plan is carried out. */
   path: ((in_s: number, out: Float64Array) => boolean) | null;
@@ -98,12 +101,13 @@ interface Neighbour extends Seen {
 }
 
 /**
- * Robots that stand in one cell, each an obstacle to the others: where they are, where they would come to rest if they were stopped
- * now, and, to the one who yields, where their plans take them meanwhile.
+ * Robots that stand in one cell, each an obstacle to the others: where they are, where they would come to rest if they
+ * were stopped now, and, to the one who yields, where their plans take them meanwhile.
  *
- * Who yields: a robot that moves keeps `between_m` from one that stands. Of two that are moved by their guards the one that was opened
- * later yields: it keeps `yielded_m` more, so that it stops first and the other need not. To a robot that nobody here could stop, because
- * it is only watched or jogged at its pendant, everyone yields. Both look at both braking ways, so that who goes first is safe as well.
+ * Who yields: a robot that moves keeps `between_m` from one that stands. Of two that are moved by their guards the one
+ * that was opened later yields: it keeps `yielded_m` more, so that it stops first and the other need not. To a robot
+ * that nobody here could stop, because it is only watched or jogged at its pendant, everyone yields. Both look at both
+ * braking ways, so that who goes first is safe as well.
  */
 export function createSharedCell({
   between_m = BETWEEN_ROBOTS_M,

@@ -21,7 +21,10 @@ export interface Ahead {
   horizon_s: number;
   /** Looks ahead of a robot that carries out a plan until the returned function is called. */
   follow(plan: Plan, findings: readonly Finding[], progress: () => Progress): () => void;
-  /** Shows where the plan would take it, at full override, without a word to the robot; the answer is what is found on the way. */
+  /**
+   * Shows where the plan would take it, at full override, without a word to the robot; the answer is what is found on
+   * the way.
+   */
   preview(plan: Plan, findings: readonly Finding[], bad: readonly Finding[]): ReturnType<LookAhead["preview"]>;
   /** null: nothing is looked ahead any more. */
   onChange(listen: (words: AheadWords | null) => void): () => void;

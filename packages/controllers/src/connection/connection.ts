@@ -48,7 +48,10 @@ export interface RobotConnectionOptions {
 const BRAKING_S = 2;
 const LOOK_S = 0.005;
 
-/** What a program is handed over with: its text where there is one and the controller takes texts, else its steps; the plan is what it is compared with. */
+/**
+ * What a program is handed over with: its text where there is one and the controller takes texts, else its steps; the
+ * plan is what it is compared with.
+ */
 export interface RobotJob {
   readonly program: Program;
   readonly files?: readonly EmittedFile[];
@@ -73,7 +76,10 @@ export type PreparedRun =
     }
   | { readonly kind: "refused"; readonly why: Refusal };
 
-/** One controller of the cell as the studio has it: behind its guard, with its twin, its link and how far it is from what it should do. */
+/**
+ * One controller of the cell as the studio has it: behind its guard, with its twin, its link and how far it is from
+ * what it should do.
+ */
 export interface RobotConnection {
   readonly name: string;
   readonly controller: RobotController | RealController;
@@ -86,7 +92,10 @@ export interface RobotConnection {
   /** A place from which it may be commanded; each has its own. */
   commander(who: string): Commander;
   connect(): Promise<CommandOutcome>;
-  /** Stops a robot that moves, and closes the connection when it stands; nothing moves after the next one without a person's word. */
+  /**
+   * Stops a robot that moves, and closes the connection when it stands; nothing moves after the next one without a
+   * person's word.
+   */
   disconnect(): void;
   /** Runs a program from that seat: as the controller's own text where it takes one. */
   carryOut(seat: Commander, job: RobotJob): Promise<CommandOutcome>;
@@ -112,14 +121,16 @@ class TextOnItsWay implements Iterable<Step> {
 }
 
 const ALARM_RAD = Math.PI / 180;
-/** A sample and a stop together are no longer under way to and from a controller than this, as the guard counts on [s]. */
+/**
+ * A sample and a stop together are no longer under way to and from a controller than this, as the guard counts on [s].
+ */
 const LINK_DELAY_S = 0.02;
 /** A motion that begins sooner than this and lasts longer is one to be seen [s]. */
 const SOON_S = 0.1;
 
 /**
- * Makes a controller a station. Programs of controllers that take texts are handed over as text and watched; the guard's
- * lease, enabling switch and link rules hold for them as for any motion.
+ * Makes a controller a station. Programs of controllers that take texts are handed over as text and watched; the
+ * guard's lease, enabling switch and link rules hold for them as for any motion.
  */
 export function createRobotConnection(options: RobotConnectionOptions): RobotConnection {
   const { controller, scheduler } = options;
@@ -173,7 +184,10 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
     notices.call(why);
   });
 
-  /** Calls `then` at once when the robot stands, else stops it and waits until it does, or until its braking time is over. */
+  /**
+   * Calls `then` at once when the robot stands, else stops it and waits until it does, or until its braking time is
+   * over.
+   */
   function atStandstill(then: () => void): void {
     if (guard.state.watching || !controller.isMoving()) {
       then();

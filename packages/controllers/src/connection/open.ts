@@ -45,7 +45,10 @@ export interface OpenOptions {
     readonly ports?: PortNumbers;
     readonly data?: ControllerData;
   };
-  /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
+  /**
+   * The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to
+   * stand.
+   */
   readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
   /** The document of the cell it works in: its objects and tool are what its guard keeps it from. */
   readonly cell?: unknown;
@@ -78,10 +81,11 @@ export interface VendorConnection extends RobotConnection {
   /** Pulls the plug of the wire to a virtual controller, or puts it back. */
   readonly plug: ((pulled: boolean) => void) | null;
   /**
-   * Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. It is planned from where the
-   * robot stands and checked in its cell first: what makes the check red keeps it from being sent.
+   * Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. It is planned
+   * from where the robot stands and checked in its cell first: what makes the check red keeps it from being sent.
    *
-   * @param despite  codes of findings that a person has seen and sends it in spite of; the guard stops it before contact all the same.
+   * @param despite  codes of findings that a person has seen and sends it in spite of; the guard stops it before
+   *   contact all the same.
    */
   run(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
@@ -89,9 +93,15 @@ export interface VendorConnection extends RobotConnection {
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   stop(emergency: boolean): void;
-  /** Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot be read leaves the one before. */
+  /**
+   * Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot
+   * be read leaves the one before.
+   */
   setCell(document: unknown): CommandOutcome;
-  /** Whether a cell is known to its guard, and what is kept between its links and what stands there, all errors in it [m]. */
+  /**
+   * Whether a cell is known to its guard, and what is kept between its links and what stands there, all errors in it
+   * [m].
+   */
   readonly kept: { readonly cell: boolean; readonly kept_m: number };
   /** Only to watch it from now on, or to command it again. */
   watch(commander: Commander, on: boolean): Promise<CommandOutcome>;
@@ -209,13 +219,18 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
   keepClearOf(
     cell ?? { worldFromBase: worldFromBase ?? pose(), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
   );
-  /** Whether objects are known that it must not touch; without a cell it is kept from itself alone, and that is said. */
+  /**
+   * Whether objects are known that it must not touch; without a cell it is kept from itself alone, and that is said.
+   */
   let knowsCell = options.cell !== undefined;
   const notices = listeners<Refusal>();
   const unnotice = station.onNotice(why => {
     notices.call(why);
   });
-  /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
+  /**
+   * The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not
+   * sent.
+   */
   async function jobOf(
     program: Program,
     asText: boolean,
@@ -248,8 +263,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     return { kind: "job", job, stuck: laid.stuck };
   }
   /**
-   * The first thing that keeps a planned program from being sent: a red finding that nobody has agreed to, or a robot that stands in
-   * its way. With others in a common start, robots that stand now may move then.
+   * The first thing that keeps a planned program from being sent: a red finding that nobody has agreed to, or a robot
+   * that stands in its way. With others in a common start, robots that stand now may move then.
    */
   function blockedBy(
     { plan, findings = [], bad = [] }: RobotJob,
@@ -383,7 +398,10 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
   };
 }
 
-/** The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions too. */
+/**
+ * The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions
+ * too.
+ */
 function* atTerminals(program: Program, brand: DriverKind, signals?: Signals): Generator<Step> {
   const terminal = (name: string): string => {
     const line = program.signals[name];

@@ -48,7 +48,10 @@ export interface PreparedJob {
   /** Why it cannot be written. */
   readonly unwritten: Refusal | null;
 }
-/** Lays programs out. It takes from milliseconds to seconds: a host whose links must not wait hands it to another thread. */
+/**
+ * Lays programs out. It takes from milliseconds to seconds: a host whose links must not wait hands it to another
+ * thread.
+ */
 export type PrepareJob = (question: JobQuestion) => Promise<PreparedJob>;
 
 /** Plans, checks and writes a program. Pure. */

@@ -30,11 +30,12 @@ export interface StartedWords {
 }
 
 /**
- * Starts several robots at once. First each is made ready: leased, at rest, its program handed over. If one refuses nobody starts, and
- * the refusal is told before anything has moved. Then all are told to start in the same turn of one clock.
+ * Starts several robots at once. First each is made ready: leased, at rest, its program handed over. If one refuses
+ * nobody starts, and the refusal is told before anything has moved. Then all are told to start in the same turn of one
+ * clock.
  *
- * From then on they are one: whoever fails, is stopped by anyone, or does not begin within `START_WINDOW_S`, stops all of them.
- * What is common is this clock, not those of the controllers: how far apart they begin is measured and told.
+ * From then on they are one: whoever fails, is stopped by anyone, or does not begin within `START_WINDOW_S`, stops all
+ * of them. What is common is this clock, not those of the controllers: how far apart they begin is measured and told.
  */
 export async function startSynchronized(
   members: readonly GroupMember[],

@@ -110,7 +110,10 @@ interface Jog {
   readonly settle: (outcome: CommandOutcome) => void;
 }
 
-/** Starts a virtual controller of that brand with its cabinet: surroundings in which things go wrong, and a pendant that people hold. */
+/**
+ * Starts a virtual controller of that brand with its cabinet: surroundings in which things go wrong, and a pendant that
+ * people hold.
+ */
 export async function openVirtualPendant({
   brand,
   network,

@@ -14,10 +14,16 @@ interface MotionBase {
   readonly q_rad: Float64Array;
   /** Share of the joint accelerations of the robot, more than 0 and up to 1. */
   readonly acceleration: number;
-  /** How long the motion takes at full override by the planner's reckoning: who waits for its end waits a multiple of it. */
+  /**
+   * How long the motion takes at full override by the planner's reckoning: who waits for its end waits a multiple of
+   * it.
+   */
   readonly duration_s: number;
 }
-/** One motion from rest to rest, as a controller takes it, counted from its base. What the controller cannot do it refuses with a reason. */
+/**
+ * One motion from rest to rest, as a controller takes it, counted from its base. What the controller cannot do it
+ * refuses with a reason.
+ */
 export type AdapterMotion =
   /** `ratio`: share of the joint speeds of the robot, more than 0 and up to 1. */
   | (MotionBase & { readonly path: "joints"; readonly ratio: number })
@@ -42,7 +48,10 @@ export interface AdapterEvents {
   /** The connection is gone, by whoever's doing. */
   lost(sentence: string): void;
 }
-/** `again`: whether another try may succeed without a person's doing; a robot of another model will not change by itself. */
+/**
+ * `again`: whether another try may succeed without a person's doing; a robot of another model will not change by
+ * itself.
+ */
 export type Opened =
   | { readonly kind: "open" }
   | { readonly kind: "failed"; readonly why: Refusal; readonly again: boolean };

@@ -75,7 +75,10 @@ export interface PendantLines {
   read(signal: string): boolean;
 }
 
-/** The cabinet and the pendant of a virtual controller, as a person stands before them (rows T-26, T-27). Why something cannot be is a sentence; null when it was done. */
+/**
+ * The cabinet and the pendant of a virtual controller, as a person stands before them (rows T-26, T-27). Why something
+ * cannot be is a sentence; null when it was done.
+ */
 export interface Pendant {
   readonly keys: readonly KeyPosition[];
   /** What the brand writes on its keys for drives on and off, and for taking alarms away. */
@@ -130,7 +133,10 @@ export type StartedDriver =
 export interface OtherPath {
   readonly name: string;
   readonly cannot: readonly Cannot[];
-  /** The rows from T-19 on that tests of its own show, and how the names of those tests end; the others are shown through the brand's first driver. */
+  /**
+   * The rows from T-19 on that tests of its own show, and how the names of those tests end; the others are shown
+   * through the brand's first driver.
+   */
   readonly shows: readonly Cannot["row"][];
   readonly tests: string;
   face(options: AdapterOptions): ControllerAdapter;
@@ -152,7 +158,10 @@ export interface DriverKind {
   readonly drives?: (robot: Robot) => boolean;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
-  /** What the driver calls the line that a program gives that number; undefined where it has none. Left out, lines keep the names of the program. */
+  /**
+   * What the driver calls the line that a program gives that number; undefined where it has none. Left out, lines keep
+   * the names of the program.
+   */
   terminal?(line: SignalLine & { readonly address: number }): string | undefined;
   /** Other drivers of the same controllers, that apps do not offer by themselves. */
   readonly otherWays?: readonly OtherPath[];

@@ -13,7 +13,10 @@ const ATTEMPT_S = 10;
 const BEYOND = 2 * Math.PI;
 const isPose = (q_rad: ArrayLike<number>, { arm }: Robot): boolean =>
   arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad - BEYOND && q_rad[i]! <= limits.upper_rad + BEYOND);
-/** A robot that was there does not become another one by itself: what says so was spoilt on its way, unless it says so again. */
+/**
+ * A robot that was there does not become another one by itself: what says so was spoilt on its way, unless it says so
+ * again.
+ */
 const HEARD_TWICE = 1;
 /** How often the watch looks, as a part of the time after which samples are stale. */
 const LOOKS = 4;
@@ -28,15 +31,18 @@ export interface Link {
 export interface LinkListener {
   /** A sample that is whole and newer than the one before. */
   sample(lent: Omit<JointSample, "step">): void;
-  /** Nothing was heard for too long, and the link is given up next: the last word, should the line still be good in that direction. */
+  /**
+   * Nothing was heard for too long, and the link is given up next: the last word, should the line still be good in that
+   * direction.
+   */
   losing(): void;
   /** The link was open and is not any more. */
   lost(why: Refusal): void;
 }
 
 /**
- * Keeps one connection: opens it, watches that samples keep coming, and when they do not, closes it and tries again with
- * growing pauses until somebody closes the link. What an old connection still says is not listened to.
+ * Keeps one connection: opens it, watches that samples keep coming, and when they do not, closes it and tries again
+ * with growing pauses until somebody closes the link. What an old connection still says is not listened to.
  */
 export function keepLink(adapter: ControllerAdapter, scheduler: Scheduler, name: string, listener: LinkListener): Link {
   const meter = new Meter();
@@ -130,7 +136,8 @@ export function keepLink(adapter: ControllerAdapter, scheduler: Scheduler, name:
     const opening = adapter.open({
       sample(lent) {
         if (!isMine()) return;
-        // What is no pose, or is older than what is known, is not heard: a controller that says nothing else is as good as silent.
+        // What is no pose, or is older than what is known, is not heard: a controller that says nothing else is as good
+        // as silent.
         const now_s = scheduler.now_s();
         if (!isPose(lent.q_rad, adapter.robot) || !meter.take(lent.sequence, lent.time_s, now_s)) return;
         heard_s = now_s;

@@ -9,8 +9,8 @@ export interface Metered {
 
 /**
  * How steadily samples come. `late_s` maps the controller's clock to ours by the sample that came fastest in the last
- * 10 to 20 seconds: late = (received − sent) − min(received − sent). The constant part of the way cannot be seen from one
- * side; half a round trip tells it.
+ * 10 to 20 seconds: late = (received − sent) − min(received − sent). The constant part of the way cannot be seen from
+ * one side; half a round trip tells it.
  */
 export class Meter {
   readonly now: Metered = { rate_Hz: 0, late_s: 0, missing: 0 };
@@ -26,7 +26,8 @@ export class Meter {
    * @param sequence    the controller's count of what it sent.
    * @param time_s      the controller's own time.
    * @param received_s  our time.
-   * @returns whether it is newer than the one before; a datagram that was overtaken is not. A controller that booted counts from its beginning again.
+   * @returns whether it is newer than the one before; a datagram that was overtaken is not. A controller that booted
+   *   counts from its beginning again.
    */
   take(sequence: number, time_s: number, received_s: number): boolean {
     const booted = time_s < this.time_s - BOOTED_S;

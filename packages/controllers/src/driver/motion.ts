@@ -15,7 +15,10 @@ export type MotionAnswer =
   | { readonly kind: "motion"; readonly motion: AdapterMotion }
   | { readonly kind: "refused"; readonly why: Refusal };
 
-/** Turns move steps into motions of a controller: frames and tools resolved to base and flange, reach and limits looked at first. */
+/**
+ * Turns move steps into motions of a controller: frames and tools resolved to base and flange, reach and limits looked
+ * at first.
+ */
 export class MotionMaker {
   private readonly robot: Robot;
   private readonly planner: RunPlanner;

@@ -32,7 +32,9 @@ export interface StepsOptions {
   readonly onMotion?: (q_rad: Float64Array) => void;
 }
 
-/** Sends one primitive step after the other, each when the one before has ended. Ends with the first that is not done. */
+/**
+ * Sends one primitive step after the other, each when the one before has ended. Ends with the first that is not done.
+ */
 export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): Promise<CommandOutcome> {
   const { face: adapter, robot, scheduler, signals, ended } = options;
   const maker = new MotionMaker(robot);

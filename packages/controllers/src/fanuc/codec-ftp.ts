@@ -1,6 +1,6 @@
 /**
- * The file transfer protocol as far as a controller's files need it (RFC 959): lines ended by CR LF over one connection, the
- * bytes of a file over another one that the client opens where PASV told it to.
+ * The file transfer protocol as far as a controller's files need it (RFC 959): lines ended by CR LF over one
+ * connection, the bytes of a file over another one that the client opens where PASV told it to.
  */
 export const FTP_PORT = 21;
 /** Longest line, and lines of one answer, that are taken. */
@@ -68,7 +68,10 @@ export function readCommand(line: string): FtpCommand | null {
 
 export const passiveText = (host: string, port: number): string =>
   `Entering Passive Mode (${host.split(".").join(",")},${port >> 8},${port & 255})`;
-/** The port of a 227; NaN when there is none. The address is that of the controller itself: what another one says is not followed. */
+/**
+ * The port of a 227; NaN when there is none. The address is that of the controller itself: what another one says is not
+ * followed.
+ */
 export function passivePort(text: string): number {
   const parts = /\(?((?:[0-9]{1,3},){5}[0-9]{1,3})\)?/.exec(text)?.[1]?.split(",").map(Number);
   return parts?.every(part => part <= 255) ? parts[4]! * 256 + parts[5]! : NaN;

@@ -1,15 +1,18 @@
 /**
- * FANUC's Remote Motion Interface (option R912): JSON objects, each ended by CR LF, over TCP. A client asks at 16001 for a
- * connection, is told another port and goes there. An object is a Communication, a Command (carried out at once, answered in
- * order) or an Instruction (appended to the program RMI_MOVE, answered when it has been carried out); its answer has the same key, an ErrorID
- * and, of an instruction, its SequenceID. Angles are degrees, lengths millimetres.
+ * FANUC's Remote Motion Interface (option R912): JSON objects, each ended by CR LF, over TCP. A client asks at 16001
+ * for a connection, is told another port and goes there. An object is a Communication, a Command (carried out at once,
+ * answered in order) or an Instruction (appended to the program RMI_MOVE, answered when it has been carried out); its
+ * answer has the same key, an ErrorID and, of an instruction, its SequenceID. Angles are degrees, lengths millimetres.
  */
 export const RMI_PORT = 16_001;
 export const RMI_SESSION_PORT = 16_002;
 /** Instructions that may wait at the controller. */
 export const MAX_WAITING = 8;
 
-/** RMIT-001 is 2556929. Anchors 2556938 and 2556957 are from records of real controllers, the order of the others from the list of the manual as remembered. */
+/**
+ * RMIT-001 is 2556929. Anchors 2556938 and 2556957 are from records of real controllers, the order of the others from
+ * the list of the manual as remembered.
+ */
 export const RMI_ERROR = {
   ok: 0,
   override: 2556933,

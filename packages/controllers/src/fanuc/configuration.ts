@@ -1,7 +1,10 @@
 import { branchOf, degrees, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
 import { rmiNumber, rmiPart } from "./codec-rmi.ts";
 
-/** The posture of a position as the interface says it: wrist flipped, elbow up, wrist in front; the turns of axes 4, 5 and 6. */
+/**
+ * The posture of a position as the interface says it: wrist flipped, elbow up, wrist in front; the turns of axes 4, 5
+ * and 6.
+ */
 export interface Configuration {
   readonly Front: number;
   readonly Up: number;
@@ -18,7 +21,10 @@ const turnOf = (angle_rad: number): number => {
   return turn === 0 ? 0 : Math.sign(angle_rad) * turn;
 };
 
-/** Pure. Arms without the names of a posture are up and in front. `Left` is that of arms that choose their elbow to the side. */
+/**
+ * Pure. Arms without the names of a posture are up and in front. `Left` is that of arms that choose their elbow to the
+ * side.
+ */
 export function configurationOf(robot: Robot, q_rad: ArrayLike<number>): Configuration {
   const branch = branchOf(robot, q_rad);
   return {
@@ -32,7 +38,9 @@ export function configurationOf(robot: Robot, q_rad: ArrayLike<number>): Configu
   };
 }
 
-/** The posture that a packet asks for: none where it names none; undefined where what it names is nothing of the kind. */
+/**
+ * The posture that a packet asks for: none where it names none; undefined where what it names is nothing of the kind.
+ */
 export function askedConfiguration(fields: Readonly<Record<string, unknown>>): Configuration | null | undefined {
   const part = rmiPart(fields, "Configuration");
   if (!("Front" in part || "Up" in part || "Flip" in part)) return null;
@@ -59,7 +67,10 @@ export const branchOfConfiguration = ({ Front, Up, Flip }: Configuration): Branc
   wrist: Flip === 1 ? "negative" : "positive",
 });
 
-/** Joint angles at that pose of the flange in that posture and those turns, the nearest to `near` [rad]; undefined where the arm cannot stand so. */
+/**
+ * Joint angles at that pose of the flange in that posture and those turns, the nearest to `near` [rad]; undefined where
+ * the arm cannot stand so.
+ */
 export function jointsIn(
   robot: Robot,
   baseFromFlange: Pose<"base", "flange">,

@@ -74,9 +74,10 @@ const said = (id: number, hint: string): Refusal =>
 const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then command the move again.";
 
 /**
- * A FANUC controller over its Remote Motion Interface: states by two questions a poll, motions one instruction at a time, a stop by
- * ending the program RMI_MOVE. The interface has no way to the servos: after an emergency stop from here this client, the only
- * one that is let in, refuses to move until it is reset. It says nothing of the robot's model.
+ * A FANUC controller over its Remote Motion Interface: states by two questions a poll, motions one instruction at a
+ * time, a stop by ending the program RMI_MOVE. The interface has no way to the servos: after an emergency stop from
+ * here this client, the only one that is let in, refuses to move until it is reset. It says nothing of the robot's
+ * model.
  */
 export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
@@ -361,7 +362,10 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
       false,
     );
   }
-  /** Appends an instruction to RMI_MOVE, which is started where it does not run, and waits until it has been carried out. */
+  /**
+   * Appends an instruction to RMI_MOVE, which is started where it does not run, and waits until it has been carried
+   * out.
+   */
   async function instruct(name: string, fields: Fields, isText: boolean): Promise<CommandOutcome> {
     if (!stream) return refused(closedHere);
     if (!servos)

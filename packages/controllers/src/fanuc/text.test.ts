@@ -6,7 +6,10 @@ import { bench as openBench, HOST, shifted } from "./testing/bench.ts";
 
 const bytes = (text: string): Uint8Array => Uint8Array.from(text, sign => sign.charCodeAt(0));
 
-/** Joint moves in radians, outputs, calls and faults of a listing: enough to show that a controller executes what it is handed. TP itself is read in the apps' tests. */
+/**
+ * Joint moves in radians, outputs, calls and faults of a listing: enough to show that a controller executes what it is
+ * handed. TP itself is read in the apps' tests.
+ */
 function interpret(text: string): Interpreted {
   const lines = text.split("\n");
   const wrong = lines.findIndex(line => line.includes("nonsense"));

@@ -13,7 +13,10 @@ import { PartInGripper } from "./part-in-gripper.ts";
 export interface ClearOfOptions {
   /** Room to keep between robot and cell [m]; 0 asks for no contact only. */
   readonly margin_m?: number;
-  /** How far the cell's objects may stand from where they are drawn, as the registration says [m]; added to the margin (row T-64). */
+  /**
+   * How far the cell's objects may stand from where they are drawn, as the registration says [m]; added to the margin
+   * (row T-64).
+   */
   readonly registrationError_m?: number;
 }
 
@@ -33,13 +36,17 @@ export interface ClearOf {
   readonly held: () => CellGeometry["held"] | null;
   /** Takes over what another cell's gripper held. */
   readonly goOnFrom: (before: ClearOf) => void;
-  /** What is kept between a link and an object, all errors in it [m]: never less than they are, unless nothing is to be kept. */
+  /**
+   * What is kept between a link and an object, all errors in it [m]: never less than they are, unless nothing is to be
+   * kept.
+   */
   readonly kept_m: number;
 }
 
 /**
- * Protection from the model alone (rows T-45, T-68): one call makes of a robot's and a cell's meshes what the guard asks. The robot's own
- * shape error and the error of registration are added to the margin, so that what is kept is never less than what is not known.
+ * Protection from the model alone (rows T-45, T-68): one call makes of a robot's and a cell's meshes what the guard
+ * asks. The robot's own shape error and the error of registration are added to the margin, so that what is kept is
+ * never less than what is not known.
  */
 export function clearOf(
   cell: CellGeometry,

@@ -33,17 +33,25 @@ export interface GuardOptions {
   /** The robot behind the guard. Nothing else may command it. */
   readonly controller: RobotController;
   readonly scheduler: Scheduler;
-  /** Motion only while the commander keeps a switch pressed. Robots that are not virtual need it unless told otherwise. */
+  /**
+   * Motion only while the commander keeps a switch pressed. Robots that are not virtual need it unless told otherwise.
+   */
   readonly deadMan?: boolean;
   /** Whether the clearance margin is kept at those joint angles; asked for targets and along the motion. */
   readonly isSafe?: (q_rad: Float64Array) => boolean;
-  /** Without a sample for this long the link counts as lost. With the watch's own period it stays below 100 ms (row X-41). */
+  /**
+   * Without a sample for this long the link counts as lost. With the watch's own period it stays below 100 ms (row
+   * X-41).
+   */
   readonly silence_s?: number | (() => number);
   /** When given, the commander must call `alive` at least this often. */
   readonly heartbeat_s?: number;
   /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
   readonly brakingTime_s?: number;
-  /** On top of the guard's own reaction: how old samples are and how long a stop is under way, over the link to the controller [s]. */
+  /**
+   * On top of the guard's own reaction: how old samples are and how long a stop is under way, over the link to the
+   * controller [s].
+   */
   readonly linkDelay_s?: number;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
   /** The other robots of the cell; see `createSharedCell`. */
@@ -112,7 +120,10 @@ const MANUAL_CAP_MPS = 0.25;
 /** Measured over one cycle the speed is a little noisy. */
 const SPEED_SLACK = 1.1;
 
-/** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
+/**
+ * Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where
+ * it was safe.
+ */
 export function createGuard(options: GuardOptions): Guard {
   const { controller, scheduler, place } = options;
   const { robot, jumpTo } = controller;
@@ -143,7 +154,8 @@ export function createGuard(options: GuardOptions): Guard {
   let percent = 100;
   let capped = 1;
   let applied = 100;
-  // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.
+  // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with
+  // room to stop.
   const q_rad = controller.jointAngles();
   const ahead_rad = new Float64Array(n);
   const between_rad = new Float64Array(n);
@@ -265,7 +277,8 @@ export function createGuard(options: GuardOptions): Guard {
     const known = dt_s > 0;
     manual = lent.mode === "manual";
     let part = 0;
-    // The difference of two samples is a speed half a sample old, and the next look is a sample away: a joint gains speed meanwhile.
+    // The difference of two samples is a speed half a sample old, and the next look is a sample away: a joint gains
+    // speed meanwhile.
     const age_s = known ? Math.min(dt_s, REACTION_S) + delay_s : 0;
     for (let i = 0; i < n; i++) {
       const rate = known ? (lent.q_rad[i]! - q_rad[i]!) / dt_s : 0;

@@ -18,7 +18,10 @@ import {
   type SolidPair,
 } from "@twincell/core";
 
-/** Where a checked program puts a part down, the guard, which looks ahead of a motion that brakes there, lets it come near [m]. */
+/**
+ * Where a checked program puts a part down, the guard, which looks ahead of a motion that brakes there, lets it come
+ * near [m].
+ */
 const LANDING_M = 0.02;
 
 interface Held {
@@ -30,9 +33,10 @@ interface Held {
 }
 
 /**
- * The part in the gripper of a robot that is guarded. It is taken where the gripper closes on a work piece of the cell (row M-20), moves
- * with the flange from then on, and stays where the gripper opens. It may touch what it rested on while it leaves it, and what a
- * checked program puts it down on while it arrives there; everything else it is kept from like the tool.
+ * The part in the gripper of a robot that is guarded. It is taken where the gripper closes on a work piece of the cell
+ * (row M-20), moves with the flange from then on, and stays where the gripper opens. It may touch what it rested on
+ * while it leaves it, and what a checked program puts it down on while it arrives there; everything else it is kept
+ * from like the tool.
  */
 export class PartInGripper {
   readonly #collider: CellCollider;
@@ -70,8 +74,9 @@ export class PartInGripper {
   }
 
   /**
-   * A checked program begins, which carries these. It counts on parts that stand where the cell has them: they are put back there, but
-   * for the one that is held. One that carries nothing, a step by hand for instance, leaves them where they were let go.
+   * A checked program begins, which carries these. It counts on parts that stand where the cell has them: they are put
+   * back there, but for the one that is held. One that carries nothing, a step by hand for instance, leaves them where
+   * they were let go.
    */
   begin(carried: readonly CarriedPart[]): void {
     this.#carried = carried;

@@ -5,7 +5,10 @@ export const formText = (fields: Readonly<Record<string, string>>): string =>
     .join("&");
 
 const MOST_FIELDS = 1000;
-/** Pairs of a form or a query, last of a name first asked; null when an escape is broken or there are too many. Letters beyond ASCII stay as they are escaped. */
+/**
+ * Pairs of a form or a query, last of a name first asked; null when an escape is broken or there are too many. Letters
+ * beyond ASCII stay as they are escaped.
+ */
 export function readForm(text: string): ReadonlyMap<string, string> | null {
   const table = new Map<string, string>();
   if (text === "") return table;

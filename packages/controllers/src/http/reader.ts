@@ -25,8 +25,9 @@ const CHUNK = /^([0-9A-Fa-f]{1,7})(?:;[\x20-\x7E]{0,256})?$/;
 const MOST_CHUNK_LINE = 300;
 
 /**
- * HTTP/1.1 messages out of pieces of bytes: bodies of a told length or in chunks, nothing that ends with the connection.
- * What is not exactly such a message is one sentence, and the reader then takes no more. It never holds more than the limits.
+ * HTTP/1.1 messages out of pieces of bytes: bodies of a told length or in chunks, nothing that ends with the
+ * connection. What is not exactly such a message is one sentence, and the reader then takes no more. It never holds
+ * more than the limits.
  */
 abstract class HttpReader<T> {
   private readonly limits: HttpLimits;

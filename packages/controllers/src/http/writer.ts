@@ -2,7 +2,10 @@ import { latin1Bytes, type HttpRequest, type HttpResponse } from "./message.ts";
 
 type Partly<T> = Omit<T, "body" | "fields"> & Partial<T>;
 
-/** A message with its length; a field of that name, or the end of a line inside a value, would be somebody else's message and is left out. */
+/**
+ * A message with its length; a field of that name, or the end of a line inside a value, would be somebody else's
+ * message and is left out.
+ */
 function bytesOf(
   first: string,
   { fields = [], body }: { readonly fields?: HttpRequest["fields"]; readonly body?: Uint8Array },

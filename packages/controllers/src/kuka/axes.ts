@@ -1,7 +1,9 @@
 import { degrees, flangePose, fromKukaAbc, pose, radians, toKukaAbc, type Pose, type Robot } from "@twincell/core";
 import { krlStruct, partsIn, REAL_DIGITS } from "./codec-values.ts";
 
-/** How a controller counts the axes:  A_i = sign_i · degrees(q_i) + offset_i. Data of the controller: handed in for arms that are described otherwise. */
+/**
+ * How a controller counts the axes:  A_i = sign_i · degrees(q_i) + offset_i. Data of the controller: handed in for arms that are described otherwise.
+ */
 export interface KukaAxes {
   readonly signs: readonly number[];
   readonly offsets_deg: readonly number[];
@@ -11,8 +13,8 @@ export const AXIS_NAMES = ["A1", "A2", "A3", "A4", "A5", "A6"] as const;
 const FRAME_NAMES = ["X", "Y", "Z", "A", "B", "C"] as const;
 
 /**
- * The library describes KUKA's arms by KUKA's own axes: zero with the arm level in front, A1, A4 and A6 by the left hand.
- * Undefined where that is not known.
+ * The library describes KUKA's arms by KUKA's own axes: zero with the arm level in front, A1, A4 and A6 by the left
+ * hand. Undefined where that is not known.
  */
 export const kukaAxes = (robot: Robot): KukaAxes | undefined =>
   robot.vendor === "KUKA" && robot.arm.joints.length === AXES

@@ -63,7 +63,10 @@ export const kuka: DriverKind = {
     createKukaAdapter({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
 };
-/** The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to 127.0.0.2. */
+/**
+ * The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to
+ * 127.0.0.2.
+ */
 export const kukaOverRsi: DriverKind = {
   ...kuka,
   id: "kuka-rsi",

@@ -29,7 +29,9 @@ export type C3Reply =
   | { readonly kind: "plain"; readonly error: number }
   | { readonly kind: "malformed" };
 
-/** One message into `out`; where it does not fit, error 10 in its place. The bytes are lent until `out` is used again. */
+/**
+ * One message into `out`; where it does not fit, error 10 in its place. The bytes are lent until `out` is used again.
+ */
 export function writeC3Reply(
   out: C3Writer,
   tag: number,

@@ -1,13 +1,14 @@
 import { readXml, xmlText, type XmlElement } from "./codec-xml.ts";
 
 /**
- * RobotSensorInterface: the robot sends a telegram every 4 or 12 ms over UDP and the sensor answers each within the cycle:
+ * RobotSensorInterface: the robot sends a telegram every 4 or 12 ms over UDP and the sensor answers each within the
+ * cycle:
  *
  *     <Rob Type="KUKA"><AIPos A1="…" …/>…<IPOC>n</IPOC></Rob>     robot → sensor
  *     <Sen Type="ImFree"><AKorr A1="…" …/>…<IPOC>n</IPOC></Sen>   sensor → robot, IPOC as it came
  *
- * IPOC is the robot's clock [ms]. Which elements there are is said by a file that both sides have, seen from the robot: SEND
- * and RECEIVE. Positions are mm and degrees.
+ * IPOC is the robot's clock [ms]. Which elements there are is said by a file that both sides have, seen from the robot:
+ * SEND and RECEIVE. Positions are mm and degrees.
  */
 export interface RsiElement {
   readonly tag: string;
@@ -220,7 +221,9 @@ export function rsiConfigText({ ip, port, senType, onlySend, send, receive }: Rs
   ].join("\n");
 }
 
-/** What our driver wants of a robot: actual and set axes and the count of late packets out, corrections of the axes in. */
+/**
+ * What our driver wants of a robot: actual and set axes and the count of late packets out, corrections of the axes in.
+ */
 export const axisConfig = (ip: string, port: number): RsiConfig => ({
   ip,
   port,

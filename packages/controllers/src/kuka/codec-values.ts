@@ -1,6 +1,7 @@
 /**
- * Values as the variables of a KUKA controller are written as text: numbers plain, BOOL `TRUE`, enumerations `#EX`, texts in
- * quotes, structures `{E6AXIS: A1 0.0, A2 -90.0}` with their type in front or without it. Names count in any case.
+ * Values as the variables of a KUKA controller are written as text: numbers plain, BOOL `TRUE`, enumerations `#EX`,
+ * texts in quotes, structures `{E6AXIS: A1 0.0, A2 -90.0}` with their type in front or without it. Names count in any
+ * case.
  */
 export type KrlValue =
   | { readonly kind: "number"; readonly value: number }

@@ -22,7 +22,8 @@ describeController("KUKA driver on its virtual controller, over variables", {
     const network = memoryNetwork(scheduler);
     const axes = kukaAxes(KR6)!;
     const model = "#KR6R900SIXX";
-    // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is T-23's).
+    // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is
+    // T-23's).
     const kuka = await createVirtualKuka({
       robot,
       scheduler,

@@ -2,14 +2,15 @@ import type { EmittedFile } from "@twincell/core";
 
 /**
  * The variable protocol moves no robot: a program on the controller does, which carries out what a client puts into its
- * global variables. Both sides know these names. The last one written is TWC_CMD, a number that was not there before; when
- * the command has ended the program writes TWC_RESULT and then the same number to TWC_DONE.
+ * global variables. Both sides know these names. The last one written is TWC_CMD, a number that was not there before;
+ * when the command has ended the program writes TWC_RESULT and then the same number to TWC_DONE.
  *
- * While a motion is under way $TIMER[10] counts up from −TWC_WATCH ms and the client sets it back; when it reaches 0 the
- * robot brakes: a watchdog on the robot's side, which the protocol itself does not have.
+ * While a motion is under way $TIMER[10] counts up from −TWC_WATCH ms and the client sets it back; when it reaches 0
+ * the robot brakes: a watchdog on the robot's side, which the protocol itself does not have.
  *
  * The protocol has no way to the drives either. Where a cell wires outputs to the inputs $DRIVES_ON and (inverted)
- * $DRIVES_OFF of Automatic External, TWC_ON and TWC_OFF in the data list are their numbers; 0 says there is no such wire.
+ * $DRIVES_OFF of Automatic External, TWC_ON and TWC_OFF in the data list are their numbers; 0 says there is no such
+ * wire.
  */
 export const LOOP_NAME = "TWINCELL";
 export const LOOP_VERSION = 1;
@@ -158,7 +159,10 @@ const file = (name: string, lines: readonly string[]): EmittedFile => ({
   text: `${lines.join("\r\n")}\r\n`,
   lines: lines.map(() => ""),
 });
-/** The program under which a sensor moves the robot by corrections; it needs the RSI option and the signal flow TWINCELL.rsi. */
+/**
+ * The program under which a sensor moves the robot by corrections; it needs the RSI option and the signal flow
+ * TWINCELL.rsi.
+ */
 export const RSI_NAME = "TWINCELL_RSI";
 export const RSI_FILE: EmittedFile = file("TWINCELL_RSI.src", [
   "&ACCESS RVP",

@@ -10,6 +10,8 @@ const letters = (text: string): string => text.toUpperCase().replace(/[^A-Z0-9]/
 const modelOf = (robot: Robot): string => letters(robot.name.replace(/^KUKA\s*/i, ""));
 
 export const kukaModel = (robot: Robot): string => MODELS[robot.id] ?? `#${modelOf(robot)}`;
-/** Whether the name that a controller gives itself is that of the robot: the first word counts, letters and digits only. */
+/**
+ * Whether the name that a controller gives itself is that of the robot: the first word counts, letters and digits only.
+ */
 export const isKukaModel = (robot: Robot, said: string): boolean =>
   letters(said.trim().split(/\s+/)[0] ?? "") === letters(kukaModel(robot).split(/\s+/)[0]!);

@@ -58,7 +58,8 @@ export function kukaPendant({ pendant, arm, machine, program }: VirtualKuka, sch
     },
     setMode(mode) {
       pendant.setMode(POSITION[mode]);
-      // Whoever turns the key to AUT presses the button of the drives as soon as the robot stands; in EXT that is the remote control's.
+      // Whoever turns the key to AUT presses the button of the drives as soon as the robot stands; in EXT that is the
+      // remote control's.
       const until_s = scheduler.now_s() + PRESSES_S;
       const stop = scheduler.every(LOOK_S, () => {
         if (machine.mode !== "AUT" || scheduler.now_s() > until_s || pendant.setDrives(true) === null) stop();

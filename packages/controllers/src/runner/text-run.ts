@@ -2,8 +2,8 @@ import type { Executed, Step } from "@twincell/core";
 import { CYCLE_S, LINES_PER_CYCLE } from "./text.ts";
 
 /**
- * One text on its way through a controller. A step that was begun and has not ended comes again when the text is taken up
- * after a stop; those that were looked ahead to stay behind it.
+ * One text on its way through a controller. A step that was begun and has not ended comes again when the text is taken
+ * up after a stop; those that were looked ahead to stay behind it.
  */
 export class TextRun {
   private readonly text: Iterator<Executed, void>;

@@ -1,6 +1,7 @@
 /**
- * The monitor of V+ (CS7, Adept MV) on a raw line: a command ends with a carriage return and comes back as an echo; what it says
- * follows, and a dot at the beginning of a line says that the next command may come. Errors stand between asterisks.
+ * The monitor of V+ (CS7, Adept MV) on a raw line: a command ends with a carriage return and comes back as an echo;
+ * what it says follows, and a dot at the beginning of a line says that the next command may come. Errors stand between
+ * asterisks.
  */
 export const LINE_PORT = 4001;
 /** A task of its own, so that the monitor stays free while the robot moves. */
@@ -60,7 +61,9 @@ export const isText = (byte: number): boolean =>
 export class MonitorReader {
   private line = "";
   private lines: string[] = [];
-  /** @param onAnswer  what was said before a prompt, the echo with it. @returns why the stream cannot go on, or null. */
+  /**
+   * @param onAnswer  what was said before a prompt, the echo with it. @returns why the stream cannot go on, or null.
+   */
   push(lent: Uint8Array, onAnswer: (lines: readonly string[]) => void): string | null {
     for (const byte of lent) {
       if (!isText(byte)) return `A byte ${byte} came, which is none of a terminal's.`;

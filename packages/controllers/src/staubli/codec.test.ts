@@ -19,7 +19,10 @@ import {
 /** Written out by hand after the VAL 3 source of ros_server, not by our encoder. */
 const hex = (text: string): Uint8Array => Uint8Array.from(text.trim().split(/\s+/), byte => parseInt(byte, 16));
 const ZERO = "00 00 00 00 ";
-/** Length 64, type 11, request, no reply code; sequence 7; 1, −0.5, 0.25, 2, 0, 0 rad and four joints that are not there; half the speed; 1.5 s. */
+/**
+ * Length 64, type 11, request, no reply code; sequence 7; 1, −0.5, 0.25, 2, 0, 0 rad and four joints that are not
+ * there; half the speed; 1.5 s.
+ */
 const POINT = hex(`40 00 00 00  0b 00 00 00  02 00 00 00  00 00 00 00  07 00 00 00
   00 00 80 3f  00 00 00 bf  00 00 80 3e  00 00 00 40  ${ZERO.repeat(6)} 00 00 00 3f  00 00 c0 3f`);
 /** Length 64, type 11, request; sequence −4 and zeros. */

@@ -1,13 +1,16 @@
 /**
  * simple_message as the open VAL 3 program ros_server speaks it: signed 32-bit numbers and 32-bit reals, little-endian.
- * A message is the length of what follows it, its type, how it is meant, a reply code, a body. Joint angles are radians.
+ * A message is the length of what follows it, its type, how it is meant, a reply code, a body. Joint angles are
+ * radians.
  */
 export const MOTION_PORT = 11_000;
 export const FEEDBACK_PORT = 11_002;
 export const MESSAGE = { joints: 10, point: 11, status: 13, fullPoint: 14 } as const;
 export const COMM = { topic: 1, request: 2, reply: 3 } as const;
 export const REPLY = { none: 0, success: 1, failure: 2 } as const;
-/** Sequence numbers that are none. The program looks for `stop` only: the other three come with a point like any other. */
+/**
+ * Sequence numbers that are none. The program looks for `stop` only: the other three come with a point like any other.
+ */
 export const SEQUENCE = { startDownload: -1, startStreaming: -2, end: -3, stop: -4 } as const;
 /** Every message has room for so many joints; those that are not there are 0. */
 export const AXES = 10;
@@ -84,7 +87,10 @@ export function fullPointReply(sequence: number, reply: number): Uint8Array {
   return bytes;
 }
 
-/** One message; valid during the call only. `fits`: whether its length is the one of its type, which ros_server does not look at. */
+/**
+ * One message; valid during the call only. `fits`: whether its length is the one of its type, which ros_server does not
+ * look at.
+ */
 export interface Message {
   type: number;
   comm: number;
@@ -100,7 +106,10 @@ export function readPoint({ view }: Message, out: Point): Point {
   out.duration_s = view.getFloat32(HEAD + 48, true);
   return out;
 }
-/** A full point as ros_server reads it: number of the robot, sequence, valid fields and time all from the first word, the first speed for the share. */
+/**
+ * A full point as ros_server reads it: number of the robot, sequence, valid fields and time all from the first word,
+ * the first speed for the share.
+ */
 export function readFullPoint({ view }: Message, out: Point): Point {
   out.sequence = view.getInt32(HEAD, true);
   out.duration_s = view.getFloat32(HEAD, true);

@@ -15,7 +15,8 @@ describeController("Stäubli driver on its virtual controller, over simple_messa
   robot,
   scheduler: manualScheduler,
   cannot: STAUBLI_CANNOT,
-  // A point waits for its cycle; the end is told by a status, which comes with every fifth state, and the state behind it.
+  // A point waits for its cycle; the end is told by a status, which comes with every fifth state, and the state behind
+  // it.
   answer_s: 0.004 + 6 * FEEDBACK_S + 0.004,
   resolution: { q_rad: half_rad, position_m: 6 * half_rad * 1.8, angle_rad: 6 * half_rad },
   async make({ robot: driven, scheduler, start_rad, maxSpeed, initialize, onMotion }) {

@@ -24,13 +24,16 @@ export interface Contract {
   /** One that is on a wire may take its time: it moves the clock on itself until it is connected. */
   readonly make: (options: BenchOptions) => RobotController | Promise<RobotController>;
   /**
-   * At most so long from a command to its motion and from its end to the answer, together: what a wire and a controller's cycle add to
-   * the duration of every move. 0 when left out.
+   * At most so long from a command to its motion and from its end to the answer, together: what a wire and a
+   * controller's cycle add to the duration of every move. 0 when left out.
    */
   readonly answer_s?: number;
   /** Rows that this controller cannot meet, with the reason; printed in the table of capabilities. */
   readonly cannot?: readonly Cannot[];
-  /** What the wire can say at best, where it is coarser than numbers are: of a joint, and what all joints together do to the flange. */
+  /**
+   * What the wire can say at best, where it is coarser than numbers are: of a joint, and what all joints together do to
+   * the flange.
+   */
   readonly resolution?: { readonly q_rad: number; readonly position_m: number; readonly angle_rad: number };
 }
 

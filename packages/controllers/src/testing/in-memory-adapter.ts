@@ -15,7 +15,9 @@ export interface InMemoryAdapter extends ControllerAdapter {
   breakLine(): void;
 }
 
-/** A face without a wire: the neutral virtual robot in the same memory. What is common to drivers is tested before it. */
+/**
+ * A face without a wire: the neutral virtual robot in the same memory. What is common to drivers is tested before it.
+ */
 export function inMemoryAdapter(
   robot: Robot,
   scheduler: Scheduler,

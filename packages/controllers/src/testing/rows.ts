@@ -16,7 +16,10 @@ const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
   Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 
-/** Rows T-23, T-24 and T-25: commanded, measured and mirrored angles agree to 0.001°, and the robot is commanded before the twin moves. */
+/**
+ * Rows T-23, T-24 and T-25: commanded, measured and mirrored angles agree to 0.001°, and the robot is commanded before
+ * the twin moves.
+ */
 export async function twinAgrees(
   { scheduler, real, arm, ended }: Driven,
   shifted: (by_rad: number) => readonly number[],
@@ -35,8 +38,8 @@ export async function twinAgrees(
 }
 
 /**
- * Rows T-46 and T-47: a controller that does not answer any more holds nothing up here, the stop goes out all the same, and the
- * connection comes back.
+ * Rows T-46 and T-47: a controller that does not answer any more holds nothing up here, the stop goes out all the same,
+ * and the connection comes back.
  *
  * @param faults   of the controller: silent, it takes what comes and answers nothing.
  * @param far_rad  a target so far that the robot is still on its way after `after_s`.

@@ -9,7 +9,10 @@ const TICK_S = 0.0005;
 const FREE_PORT = 49_152;
 /** Bytes kept for a listener that is not there yet; more ends the stream. */
 const MOST_UNHEARD = 1 << 20;
-/** A system waits so long for a stream's packet to be confirmed before it sends it again, and so many times as long at most [s]. */
+/**
+ * A system waits so long for a stream's packet to be confirmed before it sends it again, and so many times as long at
+ * most [s].
+ */
 const RESEND_S = 0.2;
 const MOST_RESENDS = 5;
 
@@ -34,8 +37,8 @@ interface Parcel {
 }
 
 /**
- * A network in memory on a given clock, with weather: for the page, where a virtual controller sits at the other end, and
- * for tests that break it. Streams keep their order under any delay; datagrams overtake each other where they may.
+ * A network in memory on a given clock, with weather: for the page, where a virtual controller sits at the other end,
+ * and for tests that break it. Streams keep their order under any delay; datagrams overtake each other where they may.
  *
  * @param seed  of everything that happens by chance.
  */

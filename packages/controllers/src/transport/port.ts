@@ -18,7 +18,10 @@ export interface ByteStream {
   readonly peer: Address;
   /** Copies what it keeps. After the end it does nothing. */
   send(bytes: Uint8Array): void;
-  /** Bytes handed to `send` and not yet taken by the other side or the system: who sends states drops them above a bound. */
+  /**
+   * Bytes handed to `send` and not yet taken by the other side or the system: who sends states drops them above a
+   * bound.
+   */
   readonly waiting: number;
   /** `lent` is only valid during the call. One listener; bytes that came before it are kept for it, up to a bound. */
   onBytes(listen: (lent: Uint8Array) => void): void;

@@ -14,7 +14,10 @@ export function spoiled(bytes: Uint8Array, conditions: NetworkConditions, random
   return copy;
 }
 
-/** In a text one number becomes nines or NaN; elsewhere eight bytes become all ones: no number as a float, −1 as an integer. */
+/**
+ * In a text one number becomes nines or NaN; elsewhere eight bytes become all ones: no number as a float, −1 as an
+ * integer.
+ */
 function absurd(bytes: Uint8Array, random: () => number): void {
   const text = String.fromCharCode(...bytes.subarray(0, 4096));
   const found = [...text.matchAll(NUMBER)];

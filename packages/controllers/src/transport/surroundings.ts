@@ -36,8 +36,8 @@ interface Parcel {
 }
 
 /**
- * Puts a network and a clock between a controller and the world, on which things go wrong by switch: whatever the brand, and
- * whatever the network is. A controller made on `network` and `scheduler` need not know of it.
+ * Puts a network and a clock between a controller and the world, on which things go wrong by switch: whatever the
+ * brand, and whatever the network is. A controller made on `network` and `scheduler` need not know of it.
  */
 export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): NetworkEmulator {
   const faultInjection: FaultInjection = { delay_s: 0, loss: 0, hangs: false, unplugged: false };

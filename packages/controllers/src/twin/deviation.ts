@@ -16,8 +16,8 @@ export interface Deviation {
 
 /**
  * Follows a plan with a robot that executes it, at whatever override: the place on the plan nearest to the measured
- * angles, searched around the place found before. Around a place where the plan turns back, the way there and the way back
- * are the same place. Allocates nothing per sample.
+ * angles, searched around the place found before. Around a place where the plan turns back, the way there and the way
+ * back are the same place. Allocates nothing per sample.
  */
 export class PlanFollower {
   private readonly plan: Plan;
@@ -34,7 +34,10 @@ export class PlanFollower {
     return this.t_s;
   }
 
-  /** min over t near the last of max over joints of |q(t) − measured| [rad]; NaN for a plan that is nowhere and for angles that are no numbers. */
+  /**
+   * min over t near the last of max over joints of |q(t) − measured| [rad]; NaN for a plan that is nowhere and for
+   * angles that are no numbers.
+   */
   take(measured_rad: ArrayLike<number>): number {
     if (this.plan.segments.length === 0) return NaN;
     let best = Infinity;

@@ -29,11 +29,11 @@ export interface LookAheadOptions {
 }
 
 /**
- * Looks along a plan ahead of the robot that carries it out. Where the robot is on its plan comes from outside, by its own progress:
- * a robot that is slowed or held meets everything later, and so it is told.
+ * Looks along a plan ahead of the robot that carries it out. Where the robot is on its plan comes from outside, by its
+ * own progress: a robot that is slowed or held meets everything later, and so it is told.
  *
- * A sweep over the other robots is spread over many calls: each looks at a few instants and allocates nothing while nothing is found.
- * Others are expected where their own plans have them, else where they come to rest.
+ * A sweep over the other robots is spread over many calls: each looks at a few instants and allocates nothing while
+ * nothing is found. Others are expected where their own plans have them, else where they come to rest.
  */
 export class LookAhead {
   readonly #options: LookAheadOptions;
@@ -49,7 +49,9 @@ export class LookAhead {
     this.#q = new Float64Array(options.joints);
   }
 
-  /** Where the robot will be in so many seconds; returns how many seconds of the way there are left, if that is less. */
+  /**
+   * Where the robot will be in so many seconds; returns how many seconds of the way there are left, if that is less.
+   */
   ghost(at_s: number, rate: number, in_s: number, out: Float64Array): number {
     const { plan } = this.#options;
     const left_s = rate > 0 ? (plan.duration_s - at_s) / rate : Infinity;
@@ -85,7 +87,10 @@ export class LookAhead {
     this.problem = earlier(this.#found(at_s, rate, horizon_s), this.#robot);
   }
 
-  /** The first thing in the way from the start on, at full override: what keeps it from being sent, and what is only told. */
+  /**
+   * The first thing in the way from the start on, at full override: what keeps it from being sent, and what is only
+   * told.
+   */
   preview(): { readonly blocked: Foreseen | null; readonly told: Foreseen | null } {
     const { plan, bad: red = [] } = this.#options;
     const end_s = Math.min(PREVIEW_S, plan.duration_s);

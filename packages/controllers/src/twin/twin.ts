@@ -2,7 +2,10 @@ import type { CommandOutcome, JointSample, Refusal, RobotController, Scheduler }
 import { listeners } from "../listeners.ts";
 import { drivesOff, guardOpen, manualMode, protective } from "../refusals.ts";
 
-/** What shows the real robot: a drawing, a virtual robot, memory. It is written to and read back, so that the two can be compared. */
+/**
+ * What shows the real robot: a drawing, a virtual robot, memory. It is written to and read back, so that the two can be
+ * compared.
+ */
 export interface Mirror {
   /** `lent` is only valid during the call. */
   show(lent: JointSample): void;

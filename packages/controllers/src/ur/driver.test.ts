@@ -222,7 +222,8 @@ describe("UR driver", () => {
     ur.pendant.setGuardOpen(false);
     await scheduler.elapse(5);
     expect(safety).toEqual(["normal", "guard-stop", "normal"]);
-    // UR's safeguard resets by itself: what was under way before either ended with the stop, or goes on to its own target.
+    // UR's safeguard resets by itself: what was under way before either ended with the stop, or goes on to its own
+    // target.
     expect(running.value?.kind).toMatch(/^(stopped|done)$/);
     const next = watched(controller.moveToZero());
     await scheduler.elapse(5);

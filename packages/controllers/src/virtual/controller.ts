@@ -49,7 +49,10 @@ export interface VirtualOptions {
   readonly mode?: OperatingMode;
   /** Where the robot stands in the cell; frames of a program are seen from the world. */
   readonly worldFromBase?: Pose<"world", "base">;
-  /** Finds joint angles for a pose: core's own when left out; with null `moveToPose` is refused and joint moves still work (row T-67). */
+  /**
+   * Finds joint angles for a pose: core's own when left out; with null `moveToPose` is refused and joint moves still
+   * work (row T-67).
+   */
   readonly solve?: Solve | null;
   /** Called once, before the first sample (row T-11). */
   readonly initialize?: () => void;
@@ -151,7 +154,8 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     try {
       state = at.stepper.advance(cycle_s, override * maxSpeed, q_rad);
     } catch (reason) {
-      // Steps may come from a running program text, and that may fault: the program ends, the robot goes on being a robot.
+      // Steps may come from a running program text, and that may fault: the program ends, the robot goes on being a
+      // robot.
       return { kind: "stopped", why: programFault(reason) };
     }
     gripperClosed = state.gripperClosed;

@@ -12,7 +12,10 @@ export type FrameAnswer =
       /** Distances of the two other points from the origin: long ones make a straight frame. */
       readonly alongX_m: number;
       readonly inPlane_m: number;
-      /** Angle between the two directions; how far it is from square says how well the third point was aimed at +y. It does not enter the frame. */
+      /**
+       * Angle between the two directions; how far it is from square says how well the third point was aimed at +y. It
+       * does not enter the frame.
+       */
       readonly angle_rad: number;
       readonly offSquare_rad: number;
       readonly sentence: string;

@@ -10,7 +10,10 @@ export interface PointPair {
   readonly measured: Vector3;
 }
 
-/** Where a thing stands, by points known on it; `residual` is the registration error to be shown beside the cell and added to its margins (row T-64). */
+/**
+ * Where a thing stands, by points known on it; `residual` is the registration error to be shown beside the cell and
+ * added to its margins (row T-64).
+ */
 export type Registration =
   | {
       readonly kind: "registered";
@@ -28,8 +31,8 @@ const FEWEST = 3;
 const LEAST_SPREAD_M = 0.002;
 
 /**
- * The rigid motion that brings known points onto measured ones with least Σ |R k + t − m|². A reflection cannot come of it:
- * R is the unit quaternion that belongs to the largest eigenvalue of Horn's 4 × 4 matrix.
+ * The rigid motion that brings known points onto measured ones with least Σ |R k + t − m|². A reflection cannot come of
+ * it: R is the unit quaternion that belongs to the largest eigenvalue of Horn's 4 × 4 matrix.
  *
  * @see Horn, Closed-form solution of absolute orientation using unit quaternions, J. Opt. Soc. Am. A 4(4) 1987.
  */

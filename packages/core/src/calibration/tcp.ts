@@ -14,15 +14,24 @@ export type TcpAnswer =
       readonly tip: Vector3;
       readonly fixedPoint: Vector3;
       readonly residual: Residual;
-      /** How much the poses turn, as they see the direction in the flange that they see least: an equal turn to both sides about all other directions [rad]. */
+      /**
+       * How much the poses turn, as they see the direction in the flange that they see least: an equal turn to both
+       * sides about all other directions [rad].
+       */
       readonly spread_rad: number;
       readonly weakest: Vector3;
-      /** What the residual means for the tip along the weakest direction: standard deviation [m]. 0 where no touch is to spare. */
+      /**
+       * What the residual means for the tip along the weakest direction: standard deviation [m]. 0 where no touch is to
+       * spare.
+       */
       readonly uncertainty_m: number;
       readonly sentence: string;
     }
   | { readonly kind: "too-few"; readonly got: number; readonly sentence: string }
-  /** `about` is the direction in the flange along which the tip is unknown: turn about directions square to it. Null when nothing turned at all. */
+  /**
+   * `about` is the direction in the flange along which the tip is unknown: turn about directions square to it. Null
+   * when nothing turned at all.
+   */
   | {
       readonly kind: "too-alike";
       readonly spread_rad: number;
@@ -40,8 +49,8 @@ const LEAST_SPREAD_RAD = (6 * Math.PI) / 180;
  *
  *   R_i t + p_i = c   ⇒   Σ (R_i − R̄)ᵀ (R_i − R̄) t = −Σ (R_i − R̄)ᵀ (p_i − p̄),   c = R̄ t + p̄
  *
- * The eigenvalues of the matrix say how well the touches see each direction of the flange; where one is near 0 all poses
- * were turned about that direction alone, and the tip along it is anybody's guess.
+ * The eigenvalues of the matrix say how well the touches see each direction of the flange; where one is near 0 all
+ * poses were turned about that direction alone, and the tip along it is anybody's guess.
  *
  * @param touches  baseFromFlange of each touch, at least four. Read only.
  */
@@ -129,8 +138,8 @@ function tooAlike(strong: number, weak: number, weakest: Vector3): TcpAnswer {
 }
 
 /**
- * How the tool is turned in the flange, by touching the fixed point with two more of its points: one on its +x axis and one
- * of its xy plane on the +y side. Seen from the flange, the three touched points are a frame.
+ * How the tool is turned in the flange, by touching the fixed point with two more of its points: one on its +x axis and
+ * one of its xy plane on the +y side. Seen from the flange, the three touched points are a frame.
  *
  * @param tip         the tip seen from the flange [m], as `tcpFromTouches` found it.
  * @param fixedPoint  the touched point in the base [m].

@@ -8,7 +8,10 @@ import type { TriangleMesh } from "./mesh.ts";
 import { rigid, rigidFromPose, type Rigid } from "./relative.ts";
 import { buildSolid, type Solid } from "./solid.ts";
 
-/** Trees already built, kept as long as their meshes are: the same mesh twice in a cell, or a cell edited, costs nothing. */
+/**
+ * Trees already built, kept as long as their meshes are: the same mesh twice in a cell, or a cell edited, costs
+ * nothing.
+ */
 export class FileRunStorage {
   readonly #solids = new WeakMap<TriangleMesh, Solid>();
 
@@ -123,7 +126,8 @@ export function farApart(a: Float64Array, b: Float64Array, gap_m: number): boole
 
 /**
  * Bounds on the distance from joint axes, base first:  ρ_k = |p⊥_{k+1}| + R_{k+1},  R_m = |p_{m+1}| + R_{m+1} + slide_m,
- * and 1 for a joint that slides, which moves every point by what it moves itself; where p_{m+1} is joint m + 1 seen from joint m, p⊥ its part across the axis, and R of the carrier the body's own radius.
+ * and 1 for a joint that slides, which moves every point by what it moves itself; where p_{m+1} is joint m + 1 seen
+ * from joint m, p⊥ its part across the axis, and R of the carrier the body's own radius.
  */
 export function reachesOf({ carrier, carrierFromBody, solid }: Body, arm: SerialArm): number[] {
   const reaches = new Array<number>(Math.max(0, carrier)).fill(0);

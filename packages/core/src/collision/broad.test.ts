@@ -74,7 +74,8 @@ test("M-09 bounding box first, then the mesh: the verdict is that of the meshes 
       });
     }
   }
-  // Boxes alone would be wrong: some overlap where the meshes do not. And they answer most pairs without a look at the meshes.
+  // Boxes alone would be wrong: some overlap where the meshes do not. And they answer most pairs without a look at the
+  // meshes.
   expect(meshes).toBeGreaterThan(20);
   expect(boxes).toBeGreaterThan(meshes);
   expect(boxes).toBeLessThan(looked / 2);

@@ -253,7 +253,8 @@ function boundTriangle(corners: Float64Array, t: number, balls: Float64Array, at
   const vx = corners[t + 6]! - ax;
   const vy = corners[t + 7]! - ay;
   const vz = corners[t + 8]! - az;
-  // Centre a + s u + w v, equally far from a, a + u and a + v; w = 0 when the third corner sees the edge at 90° or more.
+  // Centre a + s u + w v, equally far from a, a + u and a + v; w = 0 when the third corner sees the edge at 90° or
+  // more.
   const uu = ux * ux + uy * uy + uz * uz;
   const uv = ux * vx + uy * vy + uz * vz;
   const vv = vx * vx + vy * vy + vz * vz;

@@ -171,7 +171,8 @@ describe("whole motions", () => {
     const verdict = checkJointLine(collider, [0, 0, 0], [Math.PI, 0, 0]);
     if (verdict.kind !== "contact") throw new Error(verdict.kind);
     expect([verdict.a, verdict.b]).toEqual(["link 3", "plate"]);
-    // The leading side of the bar is the line y' = 0.02 of the turned frame; it meets the plate's near edge at the far end.
+    // The leading side of the bar is the line y' = 0.02 of the turned frame; it meets the plate's near edge at the far
+    // end.
     const radius = Math.hypot(2.95, 0.00005);
     const angle = Math.atan2(2.95, 0.00005) - Math.asin(0.02 / radius);
     expect(verdict.at * Math.PI).toBeGreaterThan(angle - 3e-4);

@@ -44,7 +44,8 @@ export interface SolidPair {
 
 /**
  * Answers questions about contact and clearance in one cell. It owns its working memory: one collider a worker.
- * After construction `check`, `collides`, `near`, `touches` and `clearance` allocate nothing (but what they push to `out`).
+ * After construction `check`, `collides`, `near`, `touches` and `clearance` allocate nothing (but what they push to
+ * `out`).
  *
  * Checked are: every moving link, the tool and what it holds against every object, and parts of the robot at least two
  * links apart against each other. Parts that follow each other along the arm touch by design and are left out, and so
@@ -90,12 +91,17 @@ export class CellCollider {
     return this.#pairs;
   }
 
-  /** Grows whenever an object comes, goes, moves or changes hands, or pairs become allowed: what was proven before may be wrong then. */
+  /**
+   * Grows whenever an object comes, goes, moves or changes hands, or pairs become allowed: what was proven before may
+   * be wrong then.
+   */
   get edition(): number {
     return this.#edition;
   }
 
-  /** Puts the robot in this posture. The queries below do it themselves; `distanceOf` answers for the last one placed. */
+  /**
+   * Puts the robot in this posture. The queries below do it themselves; `distanceOf` answers for the last one placed.
+   */
   place(q: ArrayLike<number>): void {
     linkPoses(this.#arm, q, this.#baseFromLinks, this.#armScratch);
     for (const body of this.#bodies) if (body.carrier !== WORLD) this.#placeOnLink(body);
@@ -109,7 +115,9 @@ export class CellCollider {
     return out;
   }
 
-  /** Whether anything is in contact at q: like `check`, but stops at the first pair found and asks frequent ones first. */
+  /**
+   * Whether anything is in contact at q: like `check`, but stops at the first pair found and asks frequent ones first.
+   */
   collides(q: ArrayLike<number>): boolean {
     this.place(q);
     const pairs = this.#pairs;
@@ -152,7 +160,8 @@ export class CellCollider {
   }
 
   /**
-   * The standing object nearest to a point of the world, if nearer than `within_m`: 0 for one that holds it. Of several as near the first.
+   * The standing object nearest to a point of the world, if nearer than `within_m`: 0 for one that holds it. Of several
+   * as near the first.
    *
    * @param counts  which objects are looked at.
    */
@@ -259,8 +268,8 @@ export class CellCollider {
   }
 
   /**
-   * Whether, in the posture last placed, every point of the pair's outer solid (the one farther along the arm) is more than
-   * `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
+   * Whether, in the posture last placed, every point of the pair's outer solid (the one farther along the arm) is more
+   * than `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
    */
   keepsApart(pair: SolidPair, near_m: number, perMetre: number): boolean {
     const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b;

@@ -21,7 +21,9 @@ export interface LinkSolid {
   readonly mesh: TriangleMesh;
 }
 
-/** Everything a collision check must know; JSON-able apart from the typed arrays, so it can be sent to a worker once. */
+/**
+ * Everything a collision check must know; JSON-able apart from the typed arrays, so it can be sent to a worker once.
+ */
 export interface CellGeometry {
   readonly worldFromBase: Pose<"world", "base">;
   readonly links: readonly LinkSolid[];
@@ -32,15 +34,20 @@ export interface CellGeometry {
   readonly objects: readonly CellObject[];
   /** The object that the gripper holds already, and how: it moves with the flange from the beginning. */
   readonly held?: { readonly id: string; readonly flangeFromObject: Pose<"flange", "object"> };
-  /** Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance). */
+  /**
+   * Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance).
+   */
   readonly allowedPairs: readonly (readonly [string, string])[];
-  /** Which parts of the robot are checked against which, as learnt and edited. What it says of a pair is final; other pairs are checked. */
+  /**
+   * Which parts of the robot are checked against which, as learnt and edited. What it says of a pair is final; other
+   * pairs are checked.
+   */
   readonly pairs?: PairMatrix;
   /** Uncertainty of the drawn robot shape [m], added to every margin. */
   readonly shapeError_m: number;
   /**
-   * How far the robot may be from where it is drawn among the objects [m]: the residual of the registration and the error of
-   * the twin. Added to the distance between what the arm moves and what stands. 0 when left out.
+   * How far the robot may be from where it is drawn among the objects [m]: the residual of the registration and the
+   * error of the twin. Added to the distance between what the arm moves and what stands. 0 when left out.
    */
   readonly placeError_m?: number;
   /** What `placeError_m` is the sum of, where that is known [m]; only said. */

@@ -10,7 +10,10 @@ import {
   type MotionVerdict,
 } from "./motion.ts";
 
-/** What proves a motion clear: for every watched pair, pieces that cover the whole of it. Plain data, can be kept with a program. */
+/**
+ * What proves a motion clear: for every watched pair, pieces that cover the whole of it. Plain data, can be kept with a
+ * program.
+ */
 export interface MotionCertificate {
   readonly from: number;
   readonly to: number;
@@ -57,13 +60,13 @@ const MOST_HALVINGS = 30;
 const ROUNDING_M = 1e-9;
 
 /**
- * Proves a certificate again by other means than it was made: distances by the search for the nearest triangles, and how far a
- * solid can move from the plain sum of lengths along the arm:
+ * Proves a certificate again by other means than it was made: distances by the search for the nearest triangles, and
+ * how far a solid can move from the plain sum of lengths along the arm:
  *
  *   |Δp| ≤ Σ_k rate_k |Δt| (|p_{k+1}| + … + |p_m| + |p_body| + radius)
  *
- * A piece whose middle is not far enough for that coarser bound is halved. A look nearer than claimed refutes it, and so do a
- * stretch that no piece of a watched pair covers and a joint that moves faster than the motion says.
+ * A piece whose middle is not far enough for that coarser bound is halved. A look nearer than claimed refutes it, and
+ * so do a stretch that no piece of a watched pair covers and a joint that moves faster than the motion says.
  *
  * @param collider  of the cell the certificate is about: build a new one to trust nothing of the first.
  * @param watched   pairs that must be proven; all by default.

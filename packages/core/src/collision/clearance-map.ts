@@ -15,7 +15,10 @@ const CLEAR = 1;
 const SPLIT = 2;
 const OPEN = 3;
 
-/** Joint space of the joints between two solids, cut into boxes; a clear one is proven clear throughout, as `checkMotion` proves. */
+/**
+ * Joint space of the joints between two solids, cut into boxes; a clear one is proven clear throughout, as
+ * `checkMotion` proves.
+ */
 interface PairMap {
   readonly joints: readonly number[];
   readonly lower: readonly number[];
@@ -30,11 +33,13 @@ interface PairMap {
 }
 
 /**
- * What earlier questions proved, kept for the next ones. How near two solids come depends on the joints between them alone; where
- * these are three at most, boxes of their angles are proven clear once (base and upper arm, forearm and hand, or a link
- * low on the arm and what stands around) and then only looked up. Unknown is always an answer: the exact test follows.
+ * What earlier questions proved, kept for the next ones. How near two solids come depends on the joints between them
+ * alone; where these are three at most, boxes of their angles are proven clear once (base and upper arm, forearm and
+ * hand, or a link low on the arm and what stands around) and then only looked up. Unknown is always an answer: the
+ * exact test follows.
  *
- * One of these belongs to one collider and forgets everything when an object there moves. It grows to some megabytes at most.
+ * One of these belongs to one collider and forgets everything when an object there moves. It grows to some megabytes at
+ * most.
  */
 export class ClearanceMaps {
   readonly #collider: CellCollider;
@@ -55,8 +60,8 @@ export class ClearanceMaps {
   }
 
   /**
-   * Whether the pair is proven to keep `margin_m` wherever every joint is within ± `half` · `maxRate` of q. False says nothing.
-   * The collider stands at q again afterwards when it stood there before.
+   * Whether the pair is proven to keep `margin_m` wherever every joint is within ± `half` · `maxRate` of q. False says
+   * nothing. The collider stands at q again afterwards when it stood there before.
    */
   provenAround(
     pair: SolidPair,

@@ -56,7 +56,9 @@ export class ContactProbe {
     this.#point = buildSolid(POINT_MESH);
   }
 
-  /** Ids of the objects nearer than `within_m` to the point, in an emptied `out`. A point inside an object touches it. */
+  /**
+   * Ids of the objects nearer than `within_m` to the point, in an emptied `out`. A point inside an object touches it.
+   */
   touches(world: Vector3, within_m: number, out: string[] = []): string[] {
     out.length = 0;
     this.#worldFromPoint[9] = world[0];

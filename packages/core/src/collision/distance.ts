@@ -10,7 +10,8 @@ import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
  * @param out      receives the nearest point of a and of b, both in a's frame [m]; unchanged for Infinity.
  * @param scratch  working memory. `scratch.witness` names a pair of triangles to begin with, when it holds numbers ≥ 0
  *                 (last time's nearest pair prunes best), and receives the nearest pair. The call allocates nothing.
- * @param enough_m  the search ends with the first pair of triangles nearer than this: 0 for the true distance; the cut-off
+ * @param enough_m  the search ends with the first pair of triangles nearer than this: 0 for the true distance; the
+ *   cut-off
  *                  when it only matters whether anything is nearer.
  * @see Larsen, Gottschalk, Lin, Manocha, Fast distance queries with rectangular swept sphere volumes, ICRA 2000.
  */

@@ -11,10 +11,11 @@ export interface Filling {
 }
 
 /**
- * Whether a point lies inside the surface. Where the surface knows its outside, the winding number decides: ways out minus
- * ways in along a ray, not 0 inside. So a point where two parts of one mesh overlap is inside both (the number of crossings
- * there is even), and a hollow whose wall faces it is outside. Without agreement on the outside, an odd number of crossings
- * is inside. In a shell with open borders one ray may slip out, so six rays vote there and four must agree.
+ * Whether a point lies inside the surface. Where the surface knows its outside, the winding number decides: ways out
+ * minus ways in along a ray, not 0 inside. So a point where two parts of one mesh overlap is inside both (the number of
+ * crossings there is even), and a hollow whose wall faces it is outside. Without agreement on the outside, an odd
+ * number of crossings is inside. In a shell with open borders one ray may slip out, so six rays vote there and four
+ * must agree.
  *
  * The rays run along the axes, and an edge is crossed by the half-open rule in the plane across the ray, computed the
  * same way for both of its triangles: a ray through an edge or a corner counts once, never twice and never not at all.
@@ -39,7 +40,10 @@ export function pointInside(
 const BOTH_WAYS = [1, -1] as const;
 const isIn = (count: number, signed: boolean): boolean => (signed ? count !== 0 : (count & 1) === 1);
 
-/** How often the ray from the point along `way` times the axis crosses the surface; `signed`, how often out minus how often in. */
+/**
+ * How often the ray from the point along `way` times the axis crosses the surface; `signed`, how often out minus how
+ * often in.
+ */
 function crossings(
   bvh: Bvh,
   signed: boolean,
@@ -86,7 +90,10 @@ function crossings(
   }
 }
 
-/** 1 where the ray crosses the triangle and the triangle faces growing u, −1 where it faces away, 0 where it is not crossed. */
+/**
+ * 1 where the ray crosses the triangle and the triangle faces growing u, −1 where it faces away, 0 where it is not
+ * crossed.
+ */
 function crosses(
   c: Float64Array,
   t: number,

@@ -2,7 +2,9 @@ import { LEAF_TRIANGLES, type Bvh } from "./bvh.ts";
 import { movePoints, rigid, type Rigid } from "./relative.ts";
 import { trianglesTouch } from "./triangles.ts";
 
-/** Working memory of the pair queries: one per caller, never shared between workers. It grows to the deepest pair met. */
+/**
+ * Working memory of the pair queries: one per caller, never shared between workers. It grows to the deepest pair met.
+ */
 export interface PairScratch {
   stack: Int32Array;
   bounds: Float64Array;

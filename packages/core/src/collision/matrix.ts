@@ -5,7 +5,8 @@ import type { CellGeometry } from "./cell.ts";
 import type { PairEntry, PairMatrix, PairReason } from "./pairs.ts";
 
 /**
- * Learns the matrix of links and tool from random postures inside the joint limits. The same seed gives the same matrix.
+ * Learns the matrix of links and tool from random postures inside the joint limits. The same seed gives the same
+ * matrix.
  *
  * @param free_rad  a posture known to be free, such as home: what touches there does so by design.
  */

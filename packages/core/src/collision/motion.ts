@@ -38,9 +38,13 @@ export interface MotionOptions {
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
-  /** Receives what was proven, piece by piece; with the verdict "clear" it is the certificate (see `certificate.ts`). */
+  /**
+   * Receives what was proven, piece by piece; with the verdict "clear" it is the certificate (see `certificate.ts`).
+   */
   readonly proof?: CertifiedPiece[];
-  /** What is known of this collider from before; asked first, unless a proof is wanted: that one must stand by itself. */
+  /**
+   * What is known of this collider from before; asked first, unless a proof is wanted: that one must stand by itself.
+   */
   readonly maps?: ClearanceMaps;
 }
 
@@ -58,8 +62,8 @@ export interface CertifiedPiece {
  *
  * While t moves by Δ, no point of a pair moves relative to the other by more than  Σ_k rate_k Δ ρ_k  over the joints k
  * between them, where ρ_k bounds the distance from axis k. A pair farther apart than that at the middle of an interval
- * keeps its margin throughout it (each point measured by its own ρ: what is near an axis hardly moves); otherwise the interval is halved, the earlier half first. A thin obstacle cannot be
- * stepped over.
+ * keeps its margin throughout it (each point measured by its own ρ: what is near an axis hardly moves); otherwise the
+ * interval is halved, the earlier half first. A thin obstacle cannot be stepped over.
  *
  * @see Schwarzer, Saha, Latombe, Exact collision checking of robot paths, WAFR 2002.
  */
@@ -129,7 +133,10 @@ export function checkMotion(
 /** Distances farther beyond the margin than this are not measured for a certificate [m]. */
 const PLENTY_M = 0.1;
 
-/** Half of what is left above the margin after the drift is claimed, so that whoever proves it again has room for a coarser bound. */
+/**
+ * Half of what is left above the margin after the drift is claimed, so that whoever proves it again has room for a
+ * coarser bound.
+ */
 function provenAt(collider: CellCollider, pair: SolidPair, margin_m: number, drift_m: number): number {
   const distance_m = Math.min(collider.distanceOf(pair, margin_m + drift_m + PLENTY_M), margin_m + drift_m + PLENTY_M);
   return margin_m + Math.max(0, distance_m - drift_m - margin_m) / 2;
@@ -171,7 +178,10 @@ function relativeRate(pair: SolidPair, maxRate: ArrayLike<number>): number {
   return rate;
 }
 
-/** Bound on how fast the outer solid turns seen from the other [rad per unit of t]: a point r from its origin is Σ rate (R − r) slower. */
+/**
+ * Bound on how fast the outer solid turns seen from the other [rad per unit of t]: a point r from its origin is Σ rate
+ * (R − r) slower.
+ */
 function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
   let turn = 0;
   for (let k = firstBetween(pair); k < outerOf(pair).carrier; k++) turn += maxRate[k]!;
@@ -182,13 +192,14 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
 export type CellErrors = Pick<CellGeometry, "shapeError_m" | "placeError_m">;
 
 /**
- * Distance a pair must keep when `margin_m` is wanted [m]: the margin; between a link and an object, held or standing, the
- * shape error of the robot once, because only the link is drawn from fitted shapes; and between what the arm moves and an
- * object that stands, how far the robot may be from where it is drawn (row T-64).
+ * Distance a pair must keep when `margin_m` is wanted [m]: the margin; between a link and an object, held or standing,
+ * the shape error of the robot once, because only the link is drawn from fitted shapes; and between what the arm moves
+ * and an object that stands, how far the robot may be from where it is drawn (row T-64).
  *
- * Two parts of the robot get no shape error. Twice the error (40 mm on many arms) is more than the maker leaves between links that
- * fold past each other, so it would stop postures that every arm takes daily; and where drawn links do come close, it is the
- * maker's joint limits and `allowContactsAt` that speak for the true castings. Tools are drawn as they are.
+ * Two parts of the robot get no shape error. Twice the error (40 mm on many arms) is more than the maker leaves between
+ * links that fold past each other, so it would stop postures that every arm takes daily; and where drawn links do come
+ * close, it is the maker's joint limits and `allowContactsAt` that speak for the true castings. Tools are drawn as they
+ * are.
  */
 export function marginOf({ a, b }: SolidPair, margin_m: number, { shapeError_m, placeError_m }: CellErrors): number {
   const drawnAndExact = (a.kind === "link" && b.kind === "object") || (b.kind === "link" && a.kind === "object");

@@ -5,8 +5,8 @@ import type { CellCollider } from "./cell-collider.ts";
 import type { CellObject, LinkSolid } from "./cell.ts";
 
 /**
- * Another robot of the cell as a collider meets it: its links as objects, put where the robot's joints have them. Their ids begin
- * with the id of the robot and a slash. Placing it allocates nothing.
+ * Another robot of the cell as a collider meets it: its links as objects, put where the robot's joints have them. Their
+ * ids begin with the id of the robot and a slash. Placing it allocates nothing.
  */
 export class OtherArm {
   readonly id: string;

@@ -54,7 +54,8 @@ describe("X-13 UR10e: the upper group (lower arm, three wrists) stops at the low
     for (const [lower, upper] of groupPairs) expect(watched).toContain(`link ${lower} / link ${upper}`);
   });
 
-  // Some of these can hardly meet with the maker's castings. A ball on either link, large enough to close the gap, makes them.
+  // Some of these can hardly meet with the maker's castings. A ball on either link, large enough to close the gap,
+  // makes them.
   test.each(groupPairs.map(([lower, upper]) => [NAMES[lower]!, NAMES[upper]!, lower, upper] as const))(
     "%s and %s",
     (_, __, lower, upper) => {
@@ -208,7 +209,8 @@ describe("a collider for every part: contact at the surface of the part's own me
     const random = seededRandom(40 + link);
     const part = linkSolids(ur10e).find(solid => solid.link === link)!;
     const worldFromPart = posesAt(q)[link]!;
-    // A ball comes in towards a corner of the part from three sides; a bisection finds where contact begins, and the nearest point by another method tells where it should (triangles without area say nothing).
+    // A ball comes in towards a corner of the part from three sides; a bisection finds where contact begins, and the
+    // nearest point by another method tells where it should (triangles without area say nothing).
     const radius_m = 0.01;
     const net = transformMesh(part.mesh, pose(worldFromPart.position, worldFromPart.quaternion));
     const triangles = trianglesOf(net);

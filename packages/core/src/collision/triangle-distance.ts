@@ -61,7 +61,9 @@ export function segmentDistance2(p: Float64Array, i: number, q: Float64Array, j:
   return dx * dx + dy * dy + dz * dz;
 }
 
-/** Squared gap between the plane of either triangle and the other triangle, the larger of the two; 0 when both straddle. */
+/**
+ * Squared gap between the plane of either triangle and the other triangle, the larger of the two; 0 when both straddle.
+ */
 function planeGap2(p: Float64Array, i: number, q: Float64Array, j: number, enough: number): number {
   const first = gapToPlane2(p, i, q, j);
   return first >= enough ? first : Math.max(first, gapToPlane2(q, j, p, i));

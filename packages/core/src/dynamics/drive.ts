@@ -57,7 +57,8 @@ export function driveGains({ inertia, torqueMax_Nm, errorMax_rad, speedErrorMax_
 }
 
 /**
- * The gains of a joint of a real arm: critically damped for what it turns there, the links' inertia M_ii and its own rotor's.
+ * The gains of a joint of a real arm: critically damped for what it turns there, the links' inertia M_ii and its own
+ * rotor's.
  *
  *   b = 2 √( k (M_ii + J gear²) )
  *

@@ -14,7 +14,9 @@ export interface Payload {
   readonly inertia_kgm2?: readonly [number, number, number, number, number, number];
 }
 
-/** Two loads as one: masses add, centres average by mass, inertias move to the common centre,  I = Σ I_i + m_i (d·d 1 − d dᵀ). */
+/**
+ * Two loads as one: masses add, centres average by mass, inertias move to the common centre,  I = Σ I_i + m_i (d·d 1 − d dᵀ).
+ */
 export function carriedTogether(a: Payload, b: Payload): Payload {
   const mass_kg = a.mass_kg + b.mass_kg;
   if (!(mass_kg > 0)) return a;
@@ -35,7 +37,10 @@ export function carriedTogether(a: Payload, b: Payload): Payload {
 /** An arm as masses that turn about axes: read-only, shared by any number of callers. */
 export interface DynamicsModel {
   readonly robot: Robot;
-  /** Per link: mass, first moment (3), inertia about the link's origin Ixx Iyy Izz Ixy Ixz Iyz; in the link's frame after its turn. */
+  /**
+   * Per link: mass, first moment (3), inertia about the link's origin Ixx Iyy Izz Ixy Ixz Iyz; in the link's frame
+   * after its turn.
+   */
   readonly bodies: Float64Array;
   /** Inertia that a motor adds at its joint, rotor inertia · gear² [kg m²]; 0 where nobody publishes it. */
   readonly rotors_kgm2: Float64Array;
@@ -61,9 +66,9 @@ export interface DynamicsOptions {
 }
 
 /**
- * The masses of a robot and of what it carries, ready for the algorithms of this folder. Links 1 … n are counted; the base
- * stands still. Where a link's mass is published without centre or inertia the answer is unknown: a torque from half the
- * numbers would look like one.
+ * The masses of a robot and of what it carries, ready for the algorithms of this folder. Links 1 … n are counted; the
+ * base stands still. Where a link's mass is published without centre or inertia the answer is unknown: a torque from
+ * half the numbers would look like one.
  */
 export function dynamicsModel(robot: Robot, options: DynamicsOptions = {}): DynamicsAnswer {
   const { joints, lastJointFromFlange } = robot.arm;
@@ -108,7 +113,10 @@ const unknown = (robot: Robot, because: string): DynamicsAnswer => ({
   sentence: `The torques of ${robot.name} are unknown: ${because}.`,
 });
 
-/** Adds a body to a link: masses, first moments, and inertias moved to the link's origin, I_o = R I Rᵀ + m (c·c 1 − c cᵀ). */
+/**
+ * Adds a body to a link: masses, first moments, and inertias moved to the link's origin, I_o = R I Rᵀ + m (c·c 1 − c
+ * cᵀ).
+ */
 function addBody(
   bodies: Float64Array,
   link: number,

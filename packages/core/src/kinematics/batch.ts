@@ -6,10 +6,15 @@ import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
 
 /** Numbers of one pose in a batch: x, y, z, then the quaternion x, y, z, w. */
 export const POSE_STRIDE = 7;
-/** Slots for postures that `solveBatch` keeps for each pose: no arm of six joints has more, and seven joints have eight for one elbow angle. */
+/**
+ * Slots for postures that `solveBatch` keeps for each pose: no arm of six joints has more, and seven joints have eight
+ * for one elbow angle.
+ */
 export const BATCH_BRANCHES = 16;
 
-/** Answers of `solveBatch`: of pose i, `counts[i]` postures, the s-th from `q_rad[(i · BATCH_BRANCHES + s) · joints]`. */
+/**
+ * Answers of `solveBatch`: of pose i, `counts[i]` postures, the s-th from `q_rad[(i · BATCH_BRANCHES + s) · joints]`.
+ */
 export interface Batch {
   readonly q_rad: Float64Array;
   readonly counts: Uint8Array;
@@ -53,11 +58,13 @@ export function flangePoseBatch(
 }
 
 /**
- * All postures of many flange poses, each put back through forward kinematics (and refined where it needs it); limits not looked
- * at; postures that fall together on a singularity are one. A pure function of typed arrays, for workers.
+ * All postures of many flange poses, each put back through forward kinematics (and refined where it needs it); limits
+ * not looked at; postures that fall together on a singularity are one. A pure function of typed arrays, for workers.
  *
- * @param poses      m × 7 numbers: position [m], quaternion x, y, z, w of unit length. A pose that is none has no postures.
- * @param out        made for the arm's joints and m poses; the postures of pose i lie from i · BATCH_BRANCHES. Returned.
+ * @param poses      m × 7 numbers: position [m], quaternion x, y, z, w of unit length. A pose that is none has no
+ *   postures.
+ * @param out        made for the arm's joints and m poses; the postures of pose i lie from i · BATCH_BRANCHES.
+ *   Returned.
  * @param elbow_rad  of seven joints; 0 unless said.
  */
 export function solveBatch(

@@ -12,20 +12,23 @@ import { elbowOfSphericalSeven } from "./spherical-seven.ts";
 
 /**
  * Which of the arm's postures. Named as a person sees them; vendors' own words live in their dialect.
- * shoulder: the wrist is in front of the shoulder axis or behind it; of seven joints: joint 2 bends forwards or backwards.
- * elbow: above or below the line shoulder–wrist, as the arm stands when it faces the wrist; of seven joints: the sign of joint 4.
- * wrist: sign of the wrist-bend angle in the formula's zero.
+ * shoulder: the wrist is in front of the shoulder axis or behind it; of seven joints: joint 2 bends forwards or
+ * backwards. elbow: above or below the line shoulder–wrist, as the arm stands when it faces the wrist; of seven joints:
+ * the sign of joint 4. wrist: sign of the wrist-bend angle in the formula's zero.
  */
 export interface Branch {
   readonly shoulder: "front" | "back";
   readonly elbow: "up" | "down";
   readonly wrist: "positive" | "negative";
   /**
-   * Sign of det J, for arms without spherical wrist: up to 16 postures share eight names, and only a singularity changes this one.
-   * Two postures may still share all four names (the arm can go from one to the other without a singularity): then the nearer is meant.
+   * Sign of det J, for arms without spherical wrist: up to 16 postures share eight names, and only a singularity
+   * changes this one. Two postures may still share all four names (the arm can go from one to the other without a
+   * singularity): then the nearer is meant.
    */
   readonly determinant?: "positive" | "negative";
-  /** Where the elbow of seven joints stands on its circle [rad]. A place, not a name: `sameBranch` does not compare it. */
+  /**
+   * Where the elbow of seven joints stands on its circle [rad]. A place, not a name: `sameBranch` does not compare it.
+   */
   readonly elbow_rad?: number;
 }
 
@@ -35,7 +38,10 @@ export const sameBranch = (a: Branch, b: Branch): boolean =>
   a.wrist === b.wrist &&
   (a.determinant === undefined || b.determinant === undefined || a.determinant === b.determinant);
 
-/** The branch of a posture; undefined for arms whose family has no such names. On a border (stretched, straight) either name is right. */
+/**
+ * The branch of a posture; undefined for arms whose family has no such names. On a border (stretched, straight) either
+ * name is right.
+ */
 export function branchOf(robot: Robot, q_rad: ArrayLike<number>, at = 0): Branch | undefined {
   const family = robot.family;
   switch (family.kind) {
@@ -99,7 +105,10 @@ export function branchOfSphericalSeven(geometry: SphericalSevenGeometry, q_rad: 
   return { ...named(positive(1), positive(3), positive(5)), elbow_rad: elbowOfSphericalSeven(geometry, q_rad, at) };
 }
 
-/** Shoulder and elbow as in an ortho-parallel arm, by where axes 4 and 5 meet; wrist by the side of axis 5 that axis 6 is turned to from axis 4. */
+/**
+ * Shoulder and elbow as in an ortho-parallel arm, by where axes 4 and 5 meet; wrist by the side of axis 5 that axis 6
+ * is turned to from axis 4.
+ */
 function branchOfGeneralSix(
   { signs, offsets_rad, a1_m, c2_m, centre_m, axis4: u, axis5: h, turn }: GeneralSixGeometry,
   q_rad: ArrayLike<number>,

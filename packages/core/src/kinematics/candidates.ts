@@ -13,7 +13,9 @@ import { solveThreeParallel } from "./three-parallel.ts";
 
 /** A solution counts when forward kinematics brings it back this close. */
 export const VERIFIED = { position_m: 1e-9, angle_rad: 1e-9 } as const;
-/** A candidate worse than this is refined: the arm's file may round its right angles, and a searched root is only near. */
+/**
+ * A candidate worse than this is refined: the arm's file may round its right angles, and a searched root is only near.
+ */
 const EXACT = 1e-12;
 /** Refinement of an answer that is verified already turns no joint that is not free by more than this [rad]. */
 const FREE_RAD = 1e-2;
@@ -50,9 +52,11 @@ export const solverScratch = (): SolverScratch => ({
 });
 
 /**
- * Candidates of the arm's own family into `scratch.raw`, angles in (−π, π], limits not looked at; each is to be settled.
+ * Candidates of the arm's own family into `scratch.raw`, angles in (−π, π], limits not looked at; each is to be
+ * settled.
  *
- * @param near       angles that free ones are taken from; for seven joints also the elbow angle, unless `elbow_rad` is given.
+ * @param near       angles that free ones are taken from; for seven joints also the elbow angle, unless `elbow_rad` is
+ *   given.
  * @param elbow_rad  of seven joints; 0 without `near`.
  * @returns their number. Allocates nothing, except for six joints without a closed form.
  */
@@ -86,7 +90,10 @@ export function candidates(
   }
 }
 
-/** The posture at `scratch.raw[s]`, moved to `scratch.q`, refined where it needs it. False when it does not meet the pose to 1e-9. */
+/**
+ * The posture at `scratch.raw[s]`, moved to `scratch.q`, refined where it needs it. False when it does not meet the
+ * pose to 1e-9.
+ */
 export function settle(
   robot: Robot,
   baseFromFlange: Pose<"base", "flange">,

@@ -24,7 +24,10 @@ export const armScratch = (): ArmScratch => ({
   trig: new Float64Array(12),
 });
 
-/** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
+/**
+ * Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether
+ * turned.
+ */
 const STRIDE = 13;
 const X = 0;
 const Y = 1;
@@ -94,8 +97,8 @@ const C5 = 2.0875723212981748279e-9;
 const C6 = -1.13596475577881948265e-11;
 
 /**
- * running ← running · fixed · Rot(axis, q), of a slide running · fixed · Trans(axis q), row after row of `chain`, in local numbers: what is stored and loaded
- * again between two joints costs as much as the sines.
+ * running ← running · fixed · Rot(axis, q), of a slide running · fixed · Trans(axis q), row after row of `chain`, in
+ * local numbers: what is stored and loaded again between two joints costs as much as the sines.
  *
  * @param flange  receives the end of the chain, or null.
  * @param links   receive the base and every joint's frame after its motion, or null.
@@ -170,7 +173,8 @@ export function walk(
       axes[joint * 6 + 4] = oy;
       axes[joint * 6 + 5] = oz;
     }
-    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to mispredict.
+    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to
+    // mispredict.
     const angle = q[joint]!;
     const n = Math.floor(angle * TURNS_PER_RAD + 0.5);
     const r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW);

@@ -19,8 +19,9 @@ import {
 } from "../index.ts";
 
 /**
- * A six-joint arm whose axes lie as those of a FANUC CRX-10iA: upper arm and forearm of 540 mm, axis 6 150 mm beside axis 4, flange
- * 160 mm out. The lengths are recalled from public papers on that arm, not taken from its maker: they matter to this test alone.
+ * A six-joint arm whose axes lie as those of a FANUC CRX-10iA: upper arm and forearm of 540 mm, axis 6 150 mm beside
+ * axis 4, flange 160 mm out. The lengths are recalled from public papers on that arm, not taken from its maker: they
+ * matter to this test alone.
  */
 const UPPER_M = 0.54;
 const FORE_M = 0.54;

@@ -1,7 +1,9 @@
 import type { SerialArm } from "../robots/arm.ts";
 import { jacobian } from "./jacobian.ts";
 
-/** Sign of the determinant of a six-joint arm's Jacobian: 1, −1, or 0 exactly on a singularity. It changes nowhere else. */
+/**
+ * Sign of the determinant of a six-joint arm's Jacobian: 1, −1, or 0 exactly on a singularity. It changes nowhere else.
+ */
 export function determinantSign(arm: SerialArm, q_rad: ArrayLike<number>, at = 0): number {
   const q = Float64Array.from({ length: 6 }, (_, j) => q_rad[at + j]!);
   const a = jacobian(arm, q);

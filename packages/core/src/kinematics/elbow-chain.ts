@@ -6,15 +6,18 @@ import type { Vector3 } from "../spatial/vector.ts";
 
 /** Axes are built at right angles when they miss one by no more than this. */
 const ALIGNED = 4e-16;
-/** Where the numbers of an elbow chain begin: turning senses, the angle added to θ2 + θ3, p1 … p6 and the flange, the flange's turn. */
+/**
+ * Where the numbers of an elbow chain begin: turning senses, the angle added to θ2 + θ3, p1 … p6 and the flange, the
+ * flange's turn.
+ */
 const SENSE = 0;
 const BEND = 6;
 const PLACE = 7;
 const TURNED = 28;
 
 /**
- * Most six-joint arms at their zero, in one row of numbers: axis 1 upright, 2, 3 and 5 level, 4 and 6 along the forearm, all
- * at right angles in the base. Forward kinematics is then one line of arithmetic without a choice in it:
+ * Most six-joint arms at their zero, in one row of numbers: axis 1 upright, 2, 3 and 5 level, 4 and 6 along the
+ * forearm, all at right angles in the base. Forward kinematics is then one line of arithmetic without a choice in it:
  *
  *   p = p1 + Rz(θ1) ( p2 + Ry(θ2) p3 + Ry(θ2 + θ3 + bend) ( p4 + Rx(θ4) ( p5 + Ry(θ5) ( p6 + Rx(θ6) pf ))))
  *
@@ -87,7 +90,8 @@ export function elbowFlange(
 ): void {
   const t2 = row[1]! * q[1]!;
   for (let i = 0; i < 6; i++) {
-    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to mispredict.
+    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to
+    // mispredict.
     const own = row[i]! * q[i]!;
     const angle = i === 2 ? t2 + own + row[BEND]! : own;
     const n = Math.floor(angle * TURNS_PER_RAD + 0.5);

@@ -15,10 +15,11 @@ const STEPS = 180;
 const HALVINGS = 40;
 
 /**
- * Where on its circle the elbow of a seven-joint arm may stand at a pose with all joints inside their limits: the circle is
- * sampled every 2° and every border halved down to rounding. Any of the eight branches will do.
+ * Where on its circle the elbow of a seven-joint arm may stand at a pose with all joints inside their limits: the
+ * circle is sampled every 2° and every border halved down to rounding. Any of the eight branches will do.
  *
- * @returns stretches in ascending order from −π; one of length 2π where every elbow angle will do; none where none will or the arm has no elbow angle.
+ * @returns stretches in ascending order from −π; one of length 2π where every elbow angle will do; none where none will
+ *   or the arm has no elbow angle.
  */
 export function elbowIntervals(
   robot: Robot,
@@ -49,8 +50,8 @@ export function elbowIntervals(
 }
 
 /**
- * The elbow angle nearest to a wanted one at which some branch keeps inside the limits; undefined when none is found. Sampled
- * every 2° to both sides; the border that is met is halved down to rounding. Allocates nothing.
+ * The elbow angle nearest to a wanted one at which some branch keeps inside the limits; undefined when none is found.
+ * Sampled every 2° to both sides; the border that is met is halved down to rounding. Allocates nothing.
  */
 export function nearestElbow(
   robot: Robot,

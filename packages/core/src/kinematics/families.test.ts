@@ -77,7 +77,9 @@ test("every library robot without spherical six-joint wrist has its family", () 
   expect(iiwa.family.deviation_m).toBeLessThan(1e-3);
 });
 
-/** Witness: EAIK for the UR10e, 500-start Newton on pinocchio for the GoFa (a lower bound); both verified by pinocchio. */
+/**
+ * Witness: EAIK for the UR10e, 500-start Newton on pinocchio for the GoFa (a lower bound); both verified by pinocchio.
+ */
 describe.each([
   [ur10e, "ur10e.inverse.json"],
   [gofa, "abb_crb15000.inverse.json"],
@@ -120,7 +122,8 @@ describe("L-21, M-43 the joints one came from are among the answers, every answe
   const cases: readonly (readonly [string, Robot, number, (q: ArrayLike<number>) => boolean])[] = [
     ["three-parallel", ur10e, 1500, () => true],
     ["spherical-seven, as drawn", straight, 800, () => true],
-    // Within this band of a stretched elbow or upright shoulder the steps of 0.436 mm decide which postures exist at all.
+    // Within this band of a stretched elbow or upright shoulder the steps of 0.436 mm decide which postures exist at
+    // all.
     [
       "spherical-seven, with sideways steps",
       iiwa,

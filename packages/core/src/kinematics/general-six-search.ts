@@ -11,10 +11,16 @@ import {
   type GeneralSixScratch,
 } from "./general-six.ts";
 
-/** Slots of the answer: at most 16 postures exist; some are found twice, where two stretches meet, and the caller sorts them out. */
+/**
+ * Slots of the answer: at most 16 postures exist; some are found twice, where two stretches meet, and the caller sorts
+ * them out.
+ */
 export const MAX_GENERAL_SIX = 32;
 
-/** Samples of θ6 around its circle to see where the arm reaches, and along each stretch to see where the condition changes its sign. */
+/**
+ * Samples of θ6 around its circle to see where the arm reaches, and along each stretch to see where the condition
+ * changes its sign.
+ */
 const CIRCLE = 64;
 const ALONG = 64;
 /** A step in which the condition, or θ1, changes by more than this is halved. */
@@ -36,15 +42,18 @@ const TURN = 2 * Math.PI;
 /**
  * All postures of a six-joint arm without spherical wrist.
  *
- * With θ6 given the arm is closed form in four ways (shoulder, elbow), and one condition is left: the angle between axes 4 and 5
- * is as built. The circle of θ6 is cut into the stretches in which the arm reaches; in each the condition is sampled with
+ * With θ6 given the arm is closed form in four ways (shoulder, elbow), and one condition is left: the angle between
+ * axes 4 and 5 is as built. The circle of θ6 is cut into the stretches in which the arm reaches; in each the condition
+ * is sampled with
  *
  *   θ6 = middle − half · cos τ
  *
- * which makes it smooth up to the border, where two of the four ways meet. Changes of sign are bisected; between samples
- * the condition's least magnitude is looked for, so that two near roots, and two fallen together, are not passed over.
+ * which makes it smooth up to the border, where two of the four ways meet. Changes of sign are bisected; between
+ * samples the condition's least magnitude is looked for, so that two near roots, and two fallen together, are not
+ * passed over.
  *
- * @param out  receives up to `MAX_GENERAL_SIX` candidates of six angles [rad], the robot's own zero and sign, in (−π, π]: good to
+ * @param out  receives up to `MAX_GENERAL_SIX` candidates of six angles [rad], the robot's own zero and sign, in (−π,
+ *   π]: good to
  *             about 1e-9 (1e-5 where two fall together) and to be refined, verified and told apart by the caller.
  * @returns number of candidates. Limits are not looked at.
  */
@@ -244,7 +253,9 @@ function leastOf(value: (x: number) => number, low: number, high: number): numbe
   return 0.5 * (a + b);
 }
 
-/** Bisects a change of sign; then looks whether the condition without that root has two more between the same samples. */
+/**
+ * Bisects a change of sign; then looks whether the condition without that root has two more between the same samples.
+ */
 function addRoots(search: Search, from: number, to: number, valueFrom: number): void {
   const root = bisect(tau => conditionAt(search, tau), from, to, valueFrom);
   add(search, root);

@@ -2,7 +2,10 @@ import type { GeneralSixGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
-/** Numbers that pass between the steps of the search: kept in an array, since those handed to a function would be allocated. */
+/**
+ * Numbers that pass between the steps of the search: kept in an array, since those handed to a function would be
+ * allocated.
+ */
 export const THETA6 = 0;
 export const CONDITION = 1;
 export const THETA1 = 2;
@@ -62,7 +65,8 @@ const SINGULAR_RADIUS_M = 4e-10;
  *   centre = p − e R (cos θ6, −sin θ6, 0)                        where axes 4 and 5 would meet
  *   θ1, θ2, θ3 as in an ortho-parallel arm with its wrist there
  *
- * The least of the distances to the borders of the reach [m², signed] goes to MARGIN; outside it the nearest posture is taken.
+ * The least of the distances to the borders of the reach [m², signed] goes to MARGIN; outside it the nearest posture is
+ * taken.
  *
  * @param shoulder  1 front, −1 back.
  * @param elbow     1 or −1: the sign of θ3 + atan2(centre).
@@ -130,8 +134,8 @@ export function evaluate(
 }
 
 /**
- * The rest of the posture last evaluated, where its condition holds: θ4 about axis 4 brings axis 5 to where it is wanted, and θ5
- * about axis 5 the rest. Writes six joint angles of the robot, in (−π, π], to `out` from `into`.
+ * The rest of the posture last evaluated, where its condition holds: θ4 about axis 4 brings axis 5 to where it is
+ * wanted, and θ5 about axis 5 the rest. Writes six joint angles of the robot, in (−π, π], to `out` from `into`.
  */
 export function complete(
   { axis4: u, axis5: h, signs, offsets_rad }: GeneralSixGeometry,

@@ -8,8 +8,9 @@ import { seededRandom } from "../random.ts";
 import { flangePose } from "./forward.ts";
 
 /**
- * Two arms are the same robot when their flanges meet this closely at the same joint values, and the one allows no value
- * further outside the other's limits than this. Files of one robot differ by rounding; a neighbour model by centimetres.
+ * Two arms are the same robot when their flanges meet this closely at the same joint values, and the one allows no
+ * value further outside the other's limits than this. Files of one robot differ by rounding; a neighbour model by
+ * centimetres.
  */
 export const IDENTITY_TOLERANCE = { position_m: 1e-3, angle_rad: 2e-3, limit: 0.02 } as const;
 
@@ -22,8 +23,8 @@ const SAMPLES = 24;
 const SEED = 1;
 
 /**
- * Whether `robot` is the arm of the library that `known` is: flange poses at its home, at zero and at 24 configurations drawn
- * within the limits of `known` (always the same ones), then the limits. Names and ids are not looked at.
+ * Whether `robot` is the arm of the library that `known` is: flange poses at its home, at zero and at 24 configurations
+ * drawn within the limits of `known` (always the same ones), then the limits. Names and ids are not looked at.
  */
 export function compareWithLibrary(robot: Robot, known: Robot): Identity {
   if (robot.arm === known.arm) return { kind: "same", worst_m: 0, worst_rad: 0 };
@@ -69,8 +70,8 @@ export const libraryRobotOf = (robot: Robot): Robot | undefined =>
 const judged = new WeakMap<Robot, string>();
 
 /**
- * Why a robot is not the one of the library whose id it carries: both sets of numbers in one sentence. Undefined when it is, and
- * for ids that the library does not have.
+ * Why a robot is not the one of the library whose id it carries: both sets of numbers in one sentence. Undefined when
+ * it is, and for ids that the library does not have.
  */
 export function falseIdentity(robot: Robot): string | undefined {
   const known = robotById(robot.id);

@@ -33,13 +33,17 @@ export interface SolveOptions {
   /** Solutions come nearest first, and free angles stay as they are here (rows N-16, N-18). */
   readonly near?: ArrayLike<number>;
   readonly branch?: Branch;
-  /** Elbow angle of a seven-joint arm [rad]; else that of the branch, else that of `near`, else 0 or the nearest to these that the limits allow. */
+  /**
+   * Elbow angle of a seven-joint arm [rad]; else that of the branch, else that of `near`, else 0 or the nearest to
+   * these that the limits allow.
+   */
   readonly elbow_rad?: number;
 }
 
 /**
- * Every distinct branch, angles in (−π, π], limits not looked at, each verified by forward kinematics; of seven joints those of
- * one elbow angle. Of an arm without a closed form those that damped least squares finds inside the limits, maybe not all.
+ * Every distinct branch, angles in (−π, π], limits not looked at, each verified by forward kinematics; of seven joints
+ * those of one elbow angle. Of an arm without a closed form those that damped least squares finds inside the limits,
+ * maybe not all.
  */
 export function allBranches(
   robot: Robot,
@@ -64,8 +68,8 @@ export function allBranches(
  * Whether a pose of the flange can be reached, by which joint angles, or why not.
  *
  * All branches of the arm's family, each verified by forward kinematics to 1e-9, each expanded by ±2π where the limits
- * leave room; with `near` sorted by least total travel Σ|Δθ|. A seven-joint arm whose limits do not allow the elbow angle it
- * would keep takes the nearest they allow; one that was asked for by `elbow_rad` is never changed.
+ * leave room; with `near` sorted by least total travel Σ|Δθ|. A seven-joint arm whose limits do not allow the elbow
+ * angle it would keep takes the nearest they allow; one that was asked for by `elbow_rad` is never changed.
  *
  * @see rows N-14 … N-18 and erratum E-06: the paper's 96 combinations are candidates, not solutions.
  */
@@ -141,9 +145,9 @@ function answer(robot: Robot, { inside, pool }: Sorted, near: ArrayLike<number> 
 }
 
 /**
- * The solution within limits that is nearest to `near` by total travel, for frame loops and dense paths; put back through
- * forward kinematics before it is handed out. Where the posture of `near` leaves its limits it may lie in another posture:
- * compare `branchOf` where that would be a jump.
+ * The solution within limits that is nearest to `near` by total travel, for frame loops and dense paths; put back
+ * through forward kinematics before it is handed out. Where the posture of `near` leaves its limits it may lie in
+ * another posture: compare `branchOf` where that would be a jump.
  *
  * A seven-joint arm keeps the elbow angle of `near`, or takes the nearest one that its limits allow.
  *
@@ -305,7 +309,10 @@ function poseFlaw(pose: Pose): string | undefined {
   return undefined;
 }
 
-/** baseFromFlange of a tool tip in the world: worldFromBase⁻¹ · worldFromTcp · flangeFromTcp⁻¹ (row N-67: taught points are of the tip). */
+/**
+ * baseFromFlange of a tool tip in the world: worldFromBase⁻¹ · worldFromTcp · flangeFromTcp⁻¹ (row N-67: taught points
+ * are of the tip).
+ */
 export function flangeOfTcp(
   worldFromBase: Pose<"world", "base">,
   worldFromTcp: Pose<"world", "tcp">,

@@ -115,7 +115,9 @@ test("the tip's twist is the Jacobian times the joint speeds", () => {
   for (let row = 0; row < 3; row++) expect(twist[row]!).toBeCloseTo((a.position[row]! - b.position[row]!) / (2 * h), 7);
 });
 
-/** Witness: pinocchio's Jacobian and LAPACK's singular values at the seeds of the inverse cases, printed to four digits. */
+/**
+ * Witness: pinocchio's Jacobian and LAPACK's singular values at the seeds of the inverse cases, printed to four digits.
+ */
 const inverse = JSON.parse(
   readFileSync(new URL("../../../../fixtures/kinematics/staubli_rx90l.inverse.json", import.meta.url), "utf8"),
 ) as { poses: { seed_q: number[]; sigma_min_seed: number }[] };

@@ -20,7 +20,8 @@ export const jacobianScratch = (joints = 6): JacobianScratch => ({
 });
 
 /**
- * Geometric Jacobian of the tool tip in the robot base: joint speeds to speed of the tip [m/s] and turning rate [rad/s].
+ * Geometric Jacobian of the tool tip in the robot base: joint speeds to speed of the tip [m/s] and turning rate
+ * [rad/s].
  *
  *   column i = ( z_i × (tip − o_i) ; z_i ),   z_i axis and o_i origin of joint i in the base;   ( z_i ; 0 ) of a slide
  *
@@ -28,7 +29,8 @@ export const jacobianScratch = (joints = 6): JacobianScratch => ({
  * @param q              n joint values [rad; m of a slide].
  * @param flangeFromTip  the tip seen in the flange [m]; the flange itself when null.
  * @param out            6 n numbers, row major: three rows of speed, three of turning rate. Returned.
- * @param scratch        made for n joints; afterwards it also holds `baseFromFlange`. With it and `out` the call allocates nothing.
+ * @param scratch        made for n joints; afterwards it also holds `baseFromFlange`. With it and `out` the call
+ *   allocates nothing.
  * @throws {JointCountFault} when q does not hold n values.
  * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 5.1.
  */

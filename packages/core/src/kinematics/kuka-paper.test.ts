@@ -18,8 +18,8 @@ import {
 } from "../index.ts";
 
 /**
- * The glove-teaching paper prints its D-H rules and no lengths. These stand in for them: a KUKA KR 6/2, the arm of those years
- * whose joint ranges hold the paper's own program, with its D-H table in Craig's (modified) form.
+ * The glove-teaching paper prints its D-H rules and no lengths. These stand in for them: a KUKA KR 6/2, the arm of
+ * those years whose joint ranges hold the paper's own program, with its D-H table in Craig's (modified) form.
  */
 const L = { a2: 0.26, a3: 0.68, a4: -0.035, d12: 0.675, d4: 0.67, d6: 0.115 } as const;
 const TABLE: readonly { readonly alpha_deg: number; readonly a: number; readonly d: number }[] = [
@@ -94,7 +94,9 @@ test("M-42 forward kinematics of the library's KR 6/2 is that product, and both 
   }
 });
 
-/** What of Eq 10 is put right: sign of the angle φ = atan2(d4, a4), the root's constant, and the cross term of a2 in B. */
+/**
+ * What of Eq 10 is put right: sign of the angle φ = atan2(d4, a4), the root's constant, and the cross term of a2 in B.
+ */
 interface Corrections {
   readonly phi: boolean;
   readonly root: boolean;
@@ -102,7 +104,9 @@ interface Corrections {
 }
 const ALL: Corrections = { phi: true, root: true, cross: true };
 
-/** Eq 10: θ3 = −atan2(d4, a4) + atan2(±√(4 a3² (a4² + d4²) − B²), B),  B = (C1 Pxw + S1 Pyw − a2)² + (d1 + d2 − Pzw)² − a3² − a4² − d4². */
+/**
+ * Eq 10: θ3 = −atan2(d4, a4) + atan2(±√(4 a3² (a4² + d4²) − B²), B),  B = (C1 Pxw + S1 Pyw − a2)² + (d1 + d2 − Pzw)² − a3² − a4² − d4².
+ */
 function theta3(wrist: Vector3, theta1: number, sign: 1 | -1, { phi, root, cross }: Corrections): number {
   const ahead = Math.cos(theta1) * wrist[0] + Math.sin(theta1) * wrist[1];
   const up = L.d12 - wrist[2];

@@ -6,8 +6,8 @@ const MOST_SWEEPS = 30;
  * Singular values of a Jacobian, largest first: how far the tip goes per unit of joint motion along the six directions
  * it can go, the last along the worst. The last is 0 on a singularity.
  *
- * One-sided Jacobi rotations: columns are turned against each other until they are perpendicular; their lengths are left.
- * For up to six joints; with more, turn the matrix first.
+ * One-sided Jacobi rotations: columns are turned against each other until they are perpendicular; their lengths are
+ * left. For up to six joints; with more, turn the matrix first.
  *
  * @param jacobianRows  6 × n numbers, row major, n ≤ 6, all finite. Read only.
  * @see Golub & Van Loan, Matrix Computations, 4th ed., 8.6.3.

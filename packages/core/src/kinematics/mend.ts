@@ -27,12 +27,14 @@ const VERIFIED = 1e-9;
 const CORRECTIONS = 4;
 
 /**
- * Posture s of a formula that the arm misses by tenths of a millimetre, made a posture of the arm with the same elbow angle: by
- * Newton's method, and where that goes astray (close to a singularity) after moving the formula's target by what was missed:
+ * Posture s of a formula that the arm misses by tenths of a millimetre, made a posture of the arm with the same elbow
+ * angle: by Newton's method, and where that goes astray (close to a singularity) after moving the formula's target by
+ * what was missed:
  *
  *   target ← target · flange(q)⁻¹ · wanted,   q ← formula⁻¹(target)
  *
- * @param raw  postures of seven angles; the s-th is overwritten by the better one, or its first angle by NaN where there is none.
+ * @param raw  postures of seven angles; the s-th is overwritten by the better one, or its first angle by NaN where
+ *   there is none.
  */
 export function mend(
   arm: SerialArm,

@@ -13,15 +13,18 @@ const SEED = 11;
 const SAME = 1e-5;
 const SINGULAR = 1e-6;
 
-/** Postures that damped least squares found, inside the limits, and why the start that came nearest met nothing, where none did. */
+/**
+ * Postures that damped least squares found, inside the limits, and why the start that came nearest met nothing, where
+ * none did.
+ */
 export interface NumericBranches {
   readonly found: readonly Float64Array[];
   readonly because: string;
 }
 
 /**
- * Postures of an arm without a closed form, by damped least squares from 24 starts. Of up to six joints all that are found, of
- * more joints, where there are as many as one likes, the first. None found is no proof that there is none.
+ * Postures of an arm without a closed form, by damped least squares from 24 starts. Of up to six joints all that are
+ * found, of more joints, where there are as many as one likes, the first. None found is no proof that there is none.
  *
  * @param near  where the first start is; else the home posture. Angles that are none fall back to it.
  */
@@ -60,7 +63,10 @@ export function numericBranches(
   return { found, because };
 }
 
-/** Whether a pose is reached, by search: not all branches are claimed, and a pose that is not met may still have a posture. */
+/**
+ * Whether a pose is reached, by search: not all branches are claimed, and a pose that is not met may still have a
+ * posture.
+ */
 export function numericReach(
   robot: Robot,
   baseFromFlange: Pose<"base", "flange">,

@@ -26,7 +26,8 @@ const EDGE_M = 4e-10;
  *   Rz(θ4) Ry(θ5) Rz(θ6) = R03(θ1, θ2, θ3)ᵀ R              θ5 = ±: wrist
  *
  * θ2 follows from the φ really taken, so that rounding at full stretch moves the wrist in second order only.
- * Where θ5 = 0 only θ4 ± θ6 is determined: θ4 is taken from `near`, or 0. Where the wrist centre lies on axis 1, θ1 likewise.
+ * Where θ5 = 0 only θ4 ± θ6 is determined: θ4 is taken from `near`, or 0. Where the wrist centre lies on axis 1, θ1
+ * likewise.
  *
  * @param geometry        seven lengths, offsets and signs. Read only.
  * @param baseFromFlange  the pose to reach. Read only; must be finite and of unit quaternion.

@@ -4,7 +4,10 @@ import { CONDITION, evaluate, generalSixScratch, MARGIN, THETA6, wantWrist } fro
 import type { Reach } from "./reach.ts";
 import { span } from "./span.ts";
 
-/** Why no branch exists: the wrist lies beyond the stretched or inside the folded arm, or cannot be turned as wanted there. */
+/**
+ * Why no branch exists: the wrist lies beyond the stretched or inside the folded arm, or cannot be turned as wanted
+ * there.
+ */
 export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">): Reach {
   const { farthest_m, nearest_m, distance_m } = span(robot, baseFromFlange);
   const family = robot.family;
@@ -17,7 +20,10 @@ export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">)
 
 const SAMPLES = 360;
 
-/** The least change of the angle between axes 4 and 5, over all θ6 and all four ways of standing, that would make the pose possible. */
+/**
+ * The least change of the angle between axes 4 and 5, over all θ6 and all four ways of standing, that would make the
+ * pose possible.
+ */
 function shortOfTurn(family: GeneralSixGeometry, baseFromFlange: Pose<"base", "flange">): number {
   const scratch = generalSixScratch();
   const { axis4: u, axis5: h } = family;

@@ -13,9 +13,9 @@ export interface Solution {
 export type Reach =
   /**
    * All distinct solutions inside the limits, ±2π copies included, least total travel first when `near` was given.
-   * `considered` counts the candidates they were taken from: closed-form branches times a turn less, none, or more of each joint.
-   * `method` is "numeric" for an arm without a closed form: solutions that a search found from `considered` starts, maybe not all,
-   * and without their copies by whole turns.
+   * `considered` counts the candidates they were taken from: closed-form branches times a turn less, none, or more of
+   * each joint. `method` is "numeric" for an arm without a closed form: solutions that a search found from `considered`
+   * starts, maybe not all, and without their copies by whole turns.
    */
   | {
       readonly kind: "reached";

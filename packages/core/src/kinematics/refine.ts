@@ -50,7 +50,8 @@ const GRADIENT_STEP_RAD = 1e-6;
  *
  * @param q        six angles [rad], or seven with `held`; overwritten with better ones.
  * @param scratch  with it the call allocates nothing once it has seen an arm of n joints.
- * @returns what is left: the largest of distance [m], angle [rad] and elbow angle [rad]. Infinity for an arm of other joints.
+ * @returns what is left: the largest of distance [m], angle [rad] and elbow angle [rad]. Infinity for an arm of other
+ *   joints.
  */
 export function refine(
   arm: SerialArm,
@@ -129,7 +130,9 @@ export function errorTwist(is: Pose, wanted: Pose, error: Float64Array): number 
   return Math.sqrt(Math.max(dx * dx + dy * dy + dz * dz, rx * rx + ry * ry + rz * rz));
 }
 
-/** step ← J⁻¹ e by elimination with pivots; the elbow's gradient is J's seventh row. False where there is no such step. */
+/**
+ * step ← J⁻¹ e by elimination with pivots; the elbow's gradient is J's seventh row. False where there is no such step.
+ */
 function solveStep(
   rows: Float64Array,
   n: number,

@@ -39,7 +39,10 @@ export function isSingular(geometry: OrthoParallelGeometry, q_rad: ArrayLike<num
   return wrist < BAND || elbow < BAND || shoulder_m < BAND;
 }
 
-/** The same for the other families: of arms whose singularities have no formula, by the least singular value of the Jacobian. */
+/**
+ * The same for the other families: of arms whose singularities have no formula, by the least singular value of the
+ * Jacobian.
+ */
 export function isSingularConfiguration(robot: Robot, q_rad: ArrayLike<number>): boolean {
   const family = robot.family;
   switch (family.kind) {
@@ -56,11 +59,17 @@ export function isSingularConfiguration(robot: Robot, q_rad: ArrayLike<number>):
   }
 }
 
-/** The sixth singular value of the Jacobian, of fewer joints the last [m or rad per rad]: 0 where a direction of motion is lost. */
+/**
+ * The sixth singular value of the Jacobian, of fewer joints the last [m or rad per rad]: 0 where a direction of motion
+ * is lost.
+ */
 export const minSingularValue = (arm: SerialArm, q_rad: ArrayLike<number>): number =>
   singularValues(jacobian(arm, q_rad))[Math.min(6, arm.joints.length) - 1] ?? 0;
 
-/** As of an ortho-parallel arm: axes 4 and 6 parallel, the arm stretched or folded, the meeting of axes 5 and 6 above axis 1. */
+/**
+ * As of an ortho-parallel arm: axes 4 and 6 parallel, the arm stretched or folded, the meeting of axes 5 and 6 above
+ * axis 1.
+ */
 export function threeParallelDistances(
   { signs, offsets_rad, a1_m, c2_m, c3_m, c5_m }: ThreeParallelGeometry,
   q_rad: ArrayLike<number>,
@@ -118,7 +127,10 @@ export function nearestSingularity(robot: Robot, q_rad: ArrayLike<number>): Sing
   };
 }
 
-/** With the elbow free to move a seven-joint arm loses a direction only where two of these meet, or when it is stretched; the elbow's own motion suffers at each. */
+/**
+ * With the elbow free to move a seven-joint arm loses a direction only where two of these meet, or when it is
+ * stretched; the elbow's own motion suffers at each.
+ */
 function nearestOfSeven({ signs, offsets_rad }: SphericalSevenGeometry, q_rad: ArrayLike<number>): Singularity {
   const sine = (j: number): number => Math.abs(Math.sin(signs[j]! * q_rad[j]! - offsets_rad[j]!));
   const shoulder = sine(1);

@@ -12,7 +12,8 @@ export interface Span {
 
 /**
  * Shoulder to wrist of a wanted pose: what has to lie between two lengths for the arm to reach it. For an ortho-parallel arm, in the plane that faces it:  |c2 − k| ≤ √(x² + z²) ≤ c2 + k,  k = √(a2² + c3²).
- * For a shoulder with an offset a1 the better of front and back counts. An arm set aside by b cannot come nearer to axis 1 than b.
+ * For a shoulder with an offset a1 the better of front and back counts. An arm set aside by b cannot come nearer to
+ * axis 1 than b.
  */
 export function span(robot: Robot, baseFromFlange: Pose<"base", "flange">): Span {
   const family = robot.family;
@@ -55,7 +56,10 @@ function spanOfOrthoParallel(family: OrthoParallelGeometry, baseFromFlange: Pose
   return { distance_m: miss(front) <= miss(back) ? front : back, nearest_m, farthest_m };
 }
 
-/** Joint 4 is what has to be within reach of the shoulder; of the up to four places it may be in, the one that misses least. */
+/**
+ * Joint 4 is what has to be within reach of the shoulder; of the up to four places it may be in, the one that misses
+ * least.
+ */
 function spanOfThreeParallel(family: ThreeParallelGeometry, baseFromFlange: Pose<"base", "flange">): Span {
   const { a1_m, b_m, c2_m, c3_m, c5_m } = family;
   const {
@@ -85,7 +89,9 @@ function spanOfThreeParallel(family: ThreeParallelGeometry, baseFromFlange: Pose
   return { distance_m: best, nearest_m, farthest_m };
 }
 
-/** The meeting of axes 4 and 5 runs on a circle about axis 6; of its places the one that misses least, to half a degree. */
+/**
+ * The meeting of axes 4 and 5 runs on a circle about axis 6; of its places the one that misses least, to half a degree.
+ */
 function spanOfGeneralSix(family: GeneralSixGeometry, baseFromFlange: Pose<"base", "flange">): Span {
   const { a1_m, b_m, c2_m, e_m, centre_m } = family;
   const { position, quaternion } = wristSeen(family, baseFromFlange);

@@ -6,9 +6,15 @@ import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 const SINGULAR_SINE = 2e-10;
 /** Outside the reach by no more than this is a rounding of its edge [m]. */
 const EDGE_M = 4e-10;
-/** Nearer than this to upright, shoulder to wrist has no vertical plane: the elbow then counts from the formula's x axis. */
+/**
+ * Nearer than this to upright, shoulder to wrist has no vertical plane: the elbow then counts from the formula's x
+ * axis.
+ */
 const UPRIGHT_SINE = 1e-9;
-/** An arm that misses the formula is given no straighter start than this [sine]: a stretched one could be refined to neither side. */
+/**
+ * An arm that misses the formula is given no straighter start than this [sine]: a stretched one could be refined to
+ * neither side.
+ */
 const LEAST_BEND = 0.02;
 /** Kept between the steps of one call. */
 const WANTED = new Float64Array(WRIST_NUMBERS);
@@ -23,15 +29,16 @@ const WANTED = new Float64Array(WRIST_NUMBERS);
  *   d = sin α · w − cos α · t = ± Rz(θ1) Ry(θ2) Rz(θ3) x̂            the side the forearm bends to;   θ4 = ±
  *   Rz(θ5) Ry(θ6) Rz(θ7) = R04ᵀ R                                   θ6 = ±
  *
- * ψ = 0 is the elbow in the vertical plane and above, and it counts right-handed about shoulder → wrist. It decides θ3 of a
- * stretched arm as well. Where θ2 = 0 (or π) θ1 is taken from `near`, or 0; where θ6 = 0 (or π) θ5 likewise.
+ * ψ = 0 is the elbow in the vertical plane and above, and it counts right-handed about shoulder → wrist. It decides θ3
+ * of a stretched arm as well. Where θ2 = 0 (or π) θ1 is taken from `near`, or 0; where θ6 = 0 (or π) θ5 likewise.
  *
  * @param elbow_rad  the elbow angle ψ.
  * @param out        receives up to eight solutions of seven angles [rad], the robot's own zero and sign, in (−π, π].
  *                   Order: θ2 ≥ 0, θ2 < 0; within it θ4 ≥ 0, θ4 < 0; within it θ6 ≥ 0, θ6 < 0.
  * @param near       seven joint angles that free angles are taken from, or undefined.
  * @returns number of solutions: 0 … 8. Allocates nothing. Limits are not looked at.
- * @see Shimizu, Kakuya, Yoon, Kitagaki, Kosuge, Analytical Inverse Kinematic Computation for 7-DOF Redundant Manipulators
+ * @see Shimizu, Kakuya, Yoon, Kitagaki, Kosuge, Analytical Inverse Kinematic Computation for 7-DOF Redundant
+ * Manipulators
  *      With Joint Limits, IEEE Transactions on Robotics 24 (2008).
  */
 export function solveSphericalSeven(
@@ -115,7 +122,8 @@ export function solveSphericalSeven(
   const inX = uz * (k1 * dx + s1 * dy) - sin2 * dz;
   const inY = k1 * dy - s1 * dx;
   const positive3 = Math.atan2(inY, inX);
-  // Frame 4 has the axes y4 = u × d and z4 = cos θ4 · u + sin θ4 · d, x4 = y4 × z4; its turn by π about z4 goes into θ5.
+  // Frame 4 has the axes y4 = u × d and z4 = cos θ4 · u + sin θ4 · d, x4 = y4 × z4; its turn by π about z4 goes into
+  // θ5.
   const y4x = uy * dz - uz * dy;
   const y4y = uz * dx - ux * dz;
   const y4z = ux * dy - uy * dx;
@@ -165,8 +173,8 @@ export function solveSphericalSeven(
 }
 
 /**
- * The elbow angle ψ [rad, in (−π, π]] of a posture, as `solveSphericalSeven` counts it; of the formula where the arm deviates from it.
- * Whatever ψ it is, solving the posture's own pose with it gives the posture back. Allocates nothing.
+ * The elbow angle ψ [rad, in (−π, π]] of a posture, as `solveSphericalSeven` counts it; of the formula where the arm
+ * deviates from it. Whatever ψ it is, solving the posture's own pose with it gives the posture back. Allocates nothing.
  */
 export function elbowOfSphericalSeven(geometry: SphericalSevenGeometry, q_rad: ArrayLike<number>, at = 0): number {
   const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;

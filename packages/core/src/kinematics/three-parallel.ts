@@ -2,11 +2,17 @@ import type { ThreeParallelGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
-/** Below this sine of θ5 axes 4 and 6 are parallel, and θ6 is free to choose; room for right angles rounded to ten digits, and still verified to 1e-9. */
+/**
+ * Below this sine of θ5 axes 4 and 6 are parallel, and θ6 is free to choose; room for right angles rounded to ten
+ * digits, and still verified to 1e-9.
+ */
 const SINGULAR_SINE = 6e-10;
 /** Nearer than this to axis 1 the wrist leaves θ1 free to choose [m]; only where b = 0. */
 const SINGULAR_RADIUS_M = 4e-10;
-/** Below this sine of θ5 the sum of θ2, θ3, θ4 and θ6 is known far better than either: θ6 is then taken from the sum as found. */
+/**
+ * Below this sine of θ5 the sum of θ2, θ3, θ4 and θ6 is known far better than either: θ6 is then taken from the sum as
+ * found.
+ */
 const NEAR_SINGULAR_SINE = 1e-3;
 /** Outside the reach by no more than this is a rounding of its edge [m]. */
 const EDGE_M = 4e-10;
@@ -23,15 +29,16 @@ const WANTED = new Float64Array(WRIST_NUMBERS);
  *   cos θ3 = (x² + z² − c2² − c3²) / (2 c2 c3)                                 elbow
  *   θ2 = atan2(x, z) − atan2(c3 sin θ3, c2 + c3 cos θ3),   θ4 = φ − θ2 − θ3
  *
- * Where θ5 is 0 or π only φ ± θ6 is determined: θ6 is taken from `near`, or 0, or where the arm cannot reach so, such that it
- * just can. Where b = 0 and the wrist lies on axis 1, θ1 is taken from `near`, or 0.
+ * Where θ5 is 0 or π only φ ± θ6 is determined: θ6 is taken from `near`, or 0, or where the arm cannot reach so, such
+ * that it just can. Where b = 0 and the wrist lies on axis 1, θ1 is taken from `near`, or 0.
  *
  * @param baseFromFlange  the pose to reach. Read only; must be finite and of unit quaternion.
  * @param out             receives up to eight solutions of six angles [rad], the robot's own zero and sign, in (−π, π].
  *                        Order: shoulder front, back; within it θ5 ≥ 0, θ5 < 0; within it θ3 ≥ 0, θ3 < 0.
  * @param near            six joint angles that free angles are taken from, or undefined.
  * @returns number of solutions: 0 … 8. Allocates nothing. Limits are not looked at.
- * @see Hawkins, Analytic Inverse Kinematics for the Universal Robots UR-5/UR-10 Arms, Georgia Tech 2013, for the order of steps.
+ * @see Hawkins, Analytic Inverse Kinematics for the Universal Robots UR-5/UR-10 Arms, Georgia Tech 2013, for the order
+ * of steps.
  */
 export function solveThreeParallel(
   geometry: ThreeParallelGeometry,

@@ -5,7 +5,9 @@ const TURN = 2 * Math.PI;
 /** Rounding of limits given in degrees. */
 export const LIMIT_SLACK_RAD = 1e-9;
 
-/** Whether a joint turns, so that it stands the same after a whole turn. One that slides does not, whatever its range. */
+/**
+ * Whether a joint turns, so that it stands the same after a whole turn. One that slides does not, whatever its range.
+ */
 export const turns = (joint: Pick<Joint, "axis"> & { readonly kind?: "revolute" | "prismatic" }): boolean =>
   joint.kind !== "prismatic";
 

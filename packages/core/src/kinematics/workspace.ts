@@ -21,8 +21,8 @@ export const workspaceScratch = (joints: number): WorkspaceScratch => ({
 });
 
 /**
- * Distance of the wrist centre from axis 2 [m]: what a declared reach is measured by. The wrist of a UR stands aside of the
- * shoulder's plane; that step is along axis 2 and does not count.
+ * Distance of the wrist centre from axis 2 [m]: what a declared reach is measured by. The wrist of a UR stands aside of
+ * the shoulder's plane; that step is along axis 2 and does not count.
  */
 export function reachOfConfiguration(
   robot: Robot,
@@ -43,8 +43,8 @@ export const isInsideWorkspace = (robot: Robot, q_rad: ArrayLike<number>, scratc
   reachOfConfiguration(robot, robot.workspace, q_rad, scratch) <= robot.workspace.reach_m + SLACK_M;
 
 /**
- * Row X-08: the solutions inside the workspace that the maker declares. The links may reach farther than that: then the answer
- * is another one than "too far".
+ * Row X-08: the solutions inside the workspace that the maker declares. The links may reach farther than that: then the
+ * answer is another one than "too far".
  */
 export function insideWorkspace(
   robot: Robot,

@@ -66,7 +66,8 @@ const TURN = 2 * Math.PI;
 /**
  * Turns the angles of a formula into the robot's own, in place: sign · (θ + offset), in (−π, π].
  *
- * @param count  numbers in `out` that are angles: solutions one behind the other, as many joints each as there are signs.
+ * @param count  numbers in `out` that are angles: solutions one behind the other, as many joints each as there are
+ *   signs.
  */
 export function formulaToJoints(
   out: Float64Array,

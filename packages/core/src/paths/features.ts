@@ -4,7 +4,10 @@ import { weldMesh } from "../shapes/weld.ts";
 import { distance, dot, type Vector3 } from "../spatial/vector.ts";
 import { fromVertex, nextInTriangle, topologyOf, toVertex, triangleOf, type Topology } from "./topology.ts";
 
-/** A run of sharp edges between two corners, or a closed one: what a person calls one edge of a part. Mesh frame, metres. */
+/**
+ * A run of sharp edges between two corners, or a closed one: what a person calls one edge of a part. Mesh frame,
+ * metres.
+ */
 export interface EdgeChain {
   readonly id: number;
   /** n + 1 points of n segments; a closed chain ends where it begins. */
@@ -41,8 +44,8 @@ export interface FeatureOptions {
 
 /**
  * Finds the edges where the surface bends by more than `dihedral_rad` (angle between neighbouring outward normals,
- * 0 = flat), joined into chains. A chain ends where the number of sharp edges in a corner is not two, where the line turns
- * by more than `corner_rad`, and nowhere else.
+ * 0 = flat), joined into chains. A chain ends where the number of sharp edges in a corner is not two, where the line
+ * turns by more than `corner_rad`, and nowhere else.
  */
 export function featureEdges(mesh: TriangleMesh, dihedral_rad: number, options: FeatureOptions = {}): FeatureEdges {
   const { lower, upper } = meshBounds(mesh);
@@ -86,7 +89,10 @@ function sharpHalfEdges({ twins, normals }: Topology, cosine: number): number[] 
   return sharp;
 }
 
-/** For every vertex, the sharp half-edges that leave it; an edge whose other side is missing counts as leaving both ends. */
+/**
+ * For every vertex, the sharp half-edges that leave it; an edge whose other side is missing counts as leaving both
+ * ends.
+ */
 type AtVertex = ReadonlyMap<number, readonly number[]>;
 
 function edgesAtVertices(topology: Topology, sharp: readonly number[]): AtVertex {

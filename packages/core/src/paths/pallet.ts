@@ -21,13 +21,17 @@ export interface Pallet {
   readonly layers: number;
   /** From one layer to the next along z of the frame; negative stacks downwards. */
   readonly layer_m: number;
-  /** "odd-rows-shifted": every second row stands half a pitch further and has one place fewer, as bottles are packed. */
+  /**
+   * "odd-rows-shifted": every second row stands half a pitch further and has one place fewer, as bottles are packed.
+   */
   readonly interleave?: (typeof PALLET_PATTERNS)[number];
   /** "rows" by default: along the first row, then the next. */
   readonly order?: PalletOrder;
 }
 
-/** How far one place is from the next along a row, along a column and from layer to layer [m, in the pallet's frame]. */
+/**
+ * How far one place is from the next along a row, along a column and from layer to layer [m, in the pallet's frame].
+ */
 export interface PalletPitch {
   readonly column: Vector3;
   readonly row: Vector3;

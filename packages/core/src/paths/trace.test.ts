@@ -329,7 +329,8 @@ describe("N-58 sparse points and joint interpolation", () => {
       at: 1,
       sentence: "The point is out of reach.",
     });
-    // Half way along the edge the wrist turns over: the same pose with joints 4 and 6 half a turn on and joint 5 mirrored.
+    // Half way along the edge the wrist turns over: the same pose with joints 4 and 6 half a turn on and joint 5
+    // mirrored.
     const turningOver: RefineArm = {
       ...arm,
       solve: tcp => {

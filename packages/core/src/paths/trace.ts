@@ -5,8 +5,8 @@ import { distanceToSegment, type EdgeCurve } from "./curve.ts";
 
 export interface TraceOptions {
   /**
-   * Where the tool comes from, in the plane across the edge: 0 lies in the first face's plane beyond the edge, 90° stands
-   * on the first face. On a right-angled edge 45° halves the corner.
+   * Where the tool comes from, in the plane across the edge: 0 lies in the first face's plane beyond the edge, 90°
+   * stands on the first face. On a right-angled edge 45° halves the corner.
    */
   readonly tilt_rad: number;
   /** How far a straight line between neighbouring points may leave the edge [m]. */
@@ -110,7 +110,8 @@ function stationsOf({ points, first, second, closed }: EdgeCurve, options: Trace
     const tangent = mean(directions, i);
     const firstNormal = mean(first, i);
     const n1 = normalize(addScaled(firstNormal, tangent, -dot(firstNormal, tangent)));
-    // Across the edge in the first face; the other normal tells which way is out. Where it does not, material is on the left.
+    // Across the edge in the first face; the other normal tells which way is out. Where it does not, material is on the
+    // left.
     const sideways = cross(tangent, n1);
     const out = dot(sideways, mean(second, i));
     const w: Vector3 = out < -1e-9 ? [-sideways[0], -sideways[1], -sideways[2]] : sideways;
@@ -135,7 +136,10 @@ function toolFrame(approach: Vector3, tangent: Vector3, { xAxis = "along", spin_
   return fromMatrix([x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]);
 }
 
-/** Keeps the stations that straight lines between them need (Douglas and Peucker 1973), with the tool's turn counted too. */
+/**
+ * Keeps the stations that straight lines between them need (Douglas and Peucker 1973), with the tool's turn counted
+ * too.
+ */
 function thin(stations: readonly Station[], options: TraceOptions): Station[] {
   const { chord_m, chord_rad = Math.PI / 180, maxStep_m = Infinity } = options;
   const lengths = [0];

@@ -1,12 +1,15 @@
 /**
- * The mark on a work piece (row M-21): "free" while nothing touches it, "ready" while the fingers touch it, "held" while they
- * are closed on it. In the order of the source: (a), (b), (c); after release the fingers still touch: a, b, c, b, a (G3).
+ * The mark on a work piece (row M-21): "free" while nothing touches it, "ready" while the fingers touch it, "held"
+ * while they are closed on it. In the order of the source: (a), (b), (c); after release the fingers still touch: a, b,
+ * c, b, a (G3).
  */
 export type GraspSignal = "free" | "ready" | "held";
 
 /** What is known of hand and piece at one instant. */
 export interface GraspSense {
-  /** Row M-20, first half: how far the fingers are bent, 0 open … 1 closed; of a gripper, whether it is told to close. */
+  /**
+   * Row M-20, first half: how far the fingers are bent, 0 open … 1 closed; of a gripper, whether it is told to close.
+   */
   readonly bend: number;
   /** Row M-20, second half: of the hand from the piece [m]; 0 where they touch. */
   readonly distance_m: number;
@@ -28,8 +31,8 @@ export function graspSignal({ bend, distance_m, between, graspable }: GraspSense
 }
 
 /**
- * The signal as it is shown: one state after the other, so that a piece is touched before and after it is held, and none shorter
- * than the eye and a debounced input need.
+ * The signal as it is shown: one state after the other, so that a piece is touched before and after it is held, and
+ * none shorter than the eye and a debounced input need.
  */
 export class GraspFilter {
   private now: GraspSignal = "free";

@@ -5,8 +5,8 @@ import type { Refusal } from "../ports.ts";
 const SCALE_KG = 1e-6;
 
 /**
- * Whether a robot may lift a part (row X-07): the part and the gripper together are the payload, and the maker's figure itself
- * is allowed (E-25). Known before the part leaves the table (row X-55).
+ * Whether a robot may lift a part (row X-07): the part and the gripper together are the payload, and the maker's figure
+ * itself is allowed (E-25). Known before the part leaves the table (row X-55).
  *
  * @returns the refusal, or undefined when it may.
  */

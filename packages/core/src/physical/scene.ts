@@ -38,9 +38,14 @@ export interface PhysicalObject {
   /** Of a part. Left out, it follows from the volume and `density_kgm3`. */
   readonly mass_kg?: number;
   readonly density_kgm3?: number;
-  /** Coulomb's coefficient of its surface (row X-16). Where two surfaces say one, the larger counts; where none does, `FRICTION`. */
+  /**
+   * Coulomb's coefficient of its surface (row X-16). Where two surfaces say one, the larger counts; where none does,
+   * `FRICTION`.
+   */
   readonly friction?: number;
-  /** Time in which a contact of its surface gives way [s]: the softer the longer (row X-16). `CONTACT_S` when left out. */
+  /**
+   * Time in which a contact of its surface gives way [s]: the softer the longer (row X-16). `CONTACT_S` when left out.
+   */
   readonly softness_s?: number;
   readonly belt?: Belt;
 }
@@ -87,7 +92,9 @@ export type Sensor = {
 export type ArmControl =
   /** It is where it is told to be, whatever it touches: for robots whose masses nobody publishes. */
   | { readonly kind: "moved" }
-  /** Row L-12: a spring and a damper on every joint beside what holds the arm's own weight; torques saturate (row L-70). */
+  /**
+   * Row L-12: a spring and a damper on every joint beside what holds the arm's own weight; torques saturate (row L-70).
+   */
   | { readonly kind: "drives"; readonly bandwidth_rad_s: number }
   /** Row L-68. */
   | { readonly kind: "computed-torque"; readonly bandwidth_rad_s: number };

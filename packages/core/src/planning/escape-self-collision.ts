@@ -17,14 +17,17 @@ export type SelfCollisionEscape =
 const BACKS_RAD = [0.2, 0.5, 1, 1.6, 2.5, 3.1] as const;
 /** Whole turns more or less at most, of so many joints at once. */
 const MOST_TWINS = 12;
-/** Samples that find out most of what is blocked before a proof is tried [rad], and how long such a proof may take: there are other ways to try. */
+/**
+ * Samples that find out most of what is blocked before a proof is tried [rad], and how long such a proof may take:
+ * there are other ways to try.
+ */
 const STEP_RAD = 0.1;
 const MOST_CHECKS = 400;
 
 /**
- * Leads an arm that would run into itself, or into something, to its target all the same (row X-28): the same target with joints
- * turned the other way round, where the limits allow it; else the joint that drives the contact first turns back by some angle;
- * else a search. Every line of the answer is proven free.
+ * Leads an arm that would run into itself, or into something, to its target all the same (row X-28): the same target
+ * with joints turned the other way round, where the limits allow it; else the joint that drives the contact first turns
+ * back by some angle; else a search. Every line of the answer is proven free.
  */
 export function escapeSelfCollision(
   checker: PathValidator,
@@ -74,7 +77,10 @@ export function escapeSelfCollision(
   return search();
 }
 
-/** The same posture with joints a whole turn on or back, inside the limits, the least travel first; the goal itself is not among them. */
+/**
+ * The same posture with joints a whole turn on or back, inside the limits, the least travel first; the goal itself is
+ * not among them.
+ */
 function twins({ arm: { joints } }: PathValidator, start: Float64Array, goal: Float64Array): Float64Array[] {
   let all = [goal];
   for (let k = 0; k < goal.length; k++) {
@@ -98,7 +104,10 @@ function twins({ arm: { joints } }: PathValidator, start: Float64Array, goal: Fl
     .sort((a, b) => distanceBetween(start, a) - distanceBetween(start, b));
 }
 
-/** The joints between the two solids by how much they bring them together where they meet, with the way that leads apart. */
+/**
+ * The joints between the two solids by how much they bring them together where they meet, with the way that leads
+ * apart.
+ */
 function drivers(
   { collider, arm }: PathValidator,
   pair: SolidPair,

@@ -47,15 +47,18 @@ const STEP_RAD = 0.17;
 const REACH_RAD = 1.2;
 const MOST_LOOKS = 60_000;
 const ASK_EVERY = 64;
-/** Where a proof fails the samples of the next try stand twice as dense, so many times; then lines are proven before they are taken. */
+/**
+ * Where a proof fails the samples of the next try stand twice as dense, so many times; then lines are proven before
+ * they are taken.
+ */
 const MOST_TRIES = 3;
 /** A goal that is within this of a limit counts as on it [rad]. */
 const ON_LIMIT_RAD = 1e-9;
 
 /**
- * A way from one posture to another that touches nothing: straight where that is free, else by two trees that grow towards each
- * other from both ends, then shortened. Whatever is returned has been proven along its whole length with `checkMotion`, so that
- * no obstacle is too thin to be seen.
+ * A way from one posture to another that touches nothing: straight where that is free, else by two trees that grow
+ * towards each other from both ends, then shortened. Whatever is returned has been proven along its whole length with
+ * `checkMotion`, so that no obstacle is too thin to be seen.
  *
  * @see Kuffner, LaValle, RRT-Connect: an efficient approach to single-query path planning, ICRA 2000.
  * @see Geraerts, Overmars, Creating high-quality paths for motion planning, IJRR 2007, for shortening.
@@ -120,7 +123,10 @@ const everyLineProven = (checker: PathValidator, way: readonly Float64Array[]): 
 
 type LineFree = (a: ArrayLike<number>, b: ArrayLike<number>) => boolean;
 
-/** Two trees that grow by turns, each new posture of the one being what the other reaches for. Null when the budget is used up. */
+/**
+ * Two trees that grow by turns, each new posture of the one being what the other reaches for. Null when the budget is
+ * used up.
+ */
 function grow(
   start: Float64Array,
   goal: Float64Array,

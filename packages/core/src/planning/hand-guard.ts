@@ -5,9 +5,9 @@ import type { SerialArm } from "../robots/arm.ts";
 import { alongLine, distanceBetween, PathValidator } from "./path-validator.ts";
 
 /**
- * What a motion by hand does where it would touch something: only an alert (rows N-47 … N-50); the same, but the point cannot be
- * taught (T-42); stop and go back to the last safe posture (T-43); slide along the surface; or, where a target is known, find
- * another way to it (X-28), and slide where none is.
+ * What a motion by hand does where it would touch something: only an alert (rows N-47 … N-50); the same, but the point
+ * cannot be taught (T-42); stop and go back to the last safe posture (T-43); slide along the surface; or, where a
+ * target is known, find another way to it (X-28), and slide where none is.
  */
 export type CollisionBehaviour = "alert" | "refuse" | "stop" | "slide" | "untangle";
 export const COLLISION_BEHAVIOURS: readonly CollisionBehaviour[] = ["alert", "refuse", "stop", "slide", "untangle"];
@@ -19,20 +19,27 @@ export type HandStep =
   /** Did not move; `safe_rad` is the last posture with room around it: lent, copy it to keep it. */
   | { readonly kind: "stopped"; readonly contact: Contact; readonly safe_rad: Float64Array };
 
-/** Kept between robot and cell while stopping or sliding, with the robot's shape error on top as `marginOf` says [m]. */
+/**
+ * Kept between robot and cell while stopping or sliding, with the robot's shape error on top as `marginOf` says [m].
+ */
 const KEPT_M = 0.002;
 /** A posture with this much room is one to go back to [m]. */
 const SAFE_M = 0.01;
 /** Joint angles differ by this when the slope of a distance is taken [rad]. */
 const PROBE_RAD = 1e-4;
-/** Surfaces slid along at once: a corner has three, and a face that lies flat against another changes its nearest corner. */
+/**
+ * Surfaces slid along at once: a corner has three, and a face that lies flat against another changes its nearest
+ * corner.
+ */
 const MOST_SURFACES = 6;
 /** Outwards in each of them, so that a curved surface is not met by the next step [m]. */
 const PUSH_M = 0.0001;
 const HALVINGS = 3;
 const MOVED: HandStep = { kind: "moved" };
 
-/** Guards steps that a hand makes. Only for what is shown or simulated: real robots have the guard of their controller. */
+/**
+ * Guards steps that a hand makes. Only for what is shown or simulated: real robots have the guard of their controller.
+ */
 export class HandGuard {
   readonly #collider: CellCollider;
   /** With the margin, with ample room, and without any. */
@@ -62,8 +69,8 @@ export class HandGuard {
   }
 
   /**
-   * Takes a small step from `from` towards `to` as the behaviour wants it; writes where to. Who stands nearer than the margin already
-   * only may not touch, and who stands in contact may always move: there must be a way out.
+   * Takes a small step from `from` towards `to` as the behaviour wants it; writes where to. Who stands nearer than the
+   * margin already only may not touch, and who stands in contact may always move: there must be a way out.
    */
   step(behaviour: CollisionBehaviour, from: ArrayLike<number>, to: ArrayLike<number>, out: Float64Array): HandStep {
     const wanted = this.#wanted;

@@ -14,8 +14,9 @@ export interface PathRules {
 }
 
 /**
- * Says of postures and of straight lines in joint space whether they are free. It remembers what it proved, so one is kept
- * for as long as its cell stays as it is; it sees when objects of its collider move. One a worker, as the collider is.
+ * Says of postures and of straight lines in joint space whether they are free. It remembers what it proved, so one is
+ * kept for as long as its cell stays as it is; it sees when objects of its collider move. One a worker, as the collider
+ * is.
  */
 export class PathValidator {
   readonly collider: CellCollider;
@@ -70,8 +71,8 @@ export class PathValidator {
   }
 
   /**
-   * Whether samples no farther apart than `step_rad` along the straight line are free, the ends taken as known. The middle comes
-   * first, then the quarters: a line through something is found out early. Proves nothing; `prove` does.
+   * Whether samples no farther apart than `step_rad` along the straight line are free, the ends taken as known. The
+   * middle comes first, then the quarters: a line through something is found out early. Proves nothing; `prove` does.
    */
   sampled(from: ArrayLike<number>, to: ArrayLike<number>, step_rad: number): boolean {
     const parts = 2 ** Math.max(0, Math.ceil(Math.log2(distanceBetween(from, to) / step_rad)));

@@ -10,8 +10,8 @@ const WORTH = 0.02;
 const CUTS = [0.5, 0.25] as const;
 
 /**
- * The same way with fewer and blunter corners: corners that are not needed are left out, random places are joined, corners are cut
- * off. Never longer than before; the ends stay.
+ * The same way with fewer and blunter corners: corners that are not needed are left out, random places are joined,
+ * corners are cut off. Never longer than before; the ends stay.
  *
  * @param lineFree  whether a straight line may be taken.
  */

@@ -1,4 +1,6 @@
-/** Postures that are joined to a root by free lines. Grows in place; a posture is named by its number, the root is 0. */
+/**
+ * Postures that are joined to a root by free lines. Grows in place; a posture is named by its number, the root is 0.
+ */
 export class ConfigurationTree {
   readonly #joints: number;
   #q: Float64Array;

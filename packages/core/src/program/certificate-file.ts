@@ -27,7 +27,10 @@ export function writeCertificate({ robot, program, margin_m, segments }: Program
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot, program, margin_m, solids, segments: short })}\n`;
 }
 
-/** Reads what `writeCertificate` wrote; anything else is an answer with the place. It does not say whether the claims hold. */
+/**
+ * Reads what `writeCertificate` wrote; anything else is an answer with the place. It does not say whether the claims
+ * hold.
+ */
 export function readCertificate(text: string): ReadCertificate {
   let value: unknown;
   try {

@@ -52,7 +52,8 @@ export function motionOf(segment: MotionSegment, rates: Float64Array): JointMoti
 }
 
 /**
- * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of `verifyCertificate`.
+ * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of
+ * `verifyCertificate`.
  *
  * @param program  says with `plan` which parts are held when.
  * @param plan     laid out again from the program: a certificate of another program or another cell does not fit it.
@@ -117,8 +118,8 @@ export function verifyProgram(
 }
 
 /**
- * Bounds on the joint speeds of a motion. A cubic's speed in Bernstein form is q̇₀, 3 Δq/h − q̇₀ − q̇₁, q̇₁ and stays within
- * the largest of them.
+ * Bounds on the joint speeds of a motion. A cubic's speed in Bernstein form is q̇₀, 3 Δq/h − q̇₀ − q̇₁, q̇₁ and stays
+ * within the largest of them.
  */
 function topSpeeds({ times_s, q_rad, qd_rad_s }: MotionSegment, out: Float64Array): void {
   const n = out.length;

@@ -61,9 +61,9 @@ export interface Checked {
 const LAYOUT_SHARE = 0.4;
 
 /**
- * Judges a whole program: reach, joint limits, speeds, torques, postures, singular postures and collision, each step with what
- * was found, in numbers and a sentence, and ways out. The plan goes on behind steps that are bad, beyond joint limits
- * where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
+ * Judges a whole program: reach, joint limits, speeds, torques, postures, singular postures and collision, each step
+ * with what was found, in numbers and a sentence, and ways out. The plan goes on behind steps that are bad, beyond
+ * joint limits where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
  */
 export function checkProgram(program: Program, robot: Robot, options: CheckOptions = {}): Checked {
   const { cell, onProgress, cancelled } = options;

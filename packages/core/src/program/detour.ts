@@ -35,8 +35,9 @@ const BLENDS_M = [0.1, 0.05, 0.02, 0] as const;
 const CAREFUL = { ratio: 0.25 } as const;
 
 /**
- * Finds points to lead a step past what it meets: from where the step begins to where it ends, as joint moves through free postures,
- * blended as far as nothing is touched. A straight or circular step becomes a joint move, because its line is what is blocked.
+ * Finds points to lead a step past what it meets: from where the step begins to where it ends, as joint moves through
+ * free postures, blended as far as nothing is touched. A straight or circular step becomes a joint move, because its
+ * line is what is blocked.
  */
 export function detour(program: Program, step: string, robot: Robot, options: DetourOptions): Detour {
   const { cell, margin_m = 0 } = options;
@@ -136,7 +137,10 @@ function fitting(
   return undefined;
 }
 
-/** Whether a joint move from `before` to the step's own target ends in the posture wanted, so that the target can stay as it was taught. */
+/**
+ * Whether a joint move from `before` to the step's own target ends in the posture wanted, so that the target can stay
+ * as it was taught.
+ */
 function endsThere(
   step: MoveStep,
   before: Float64Array,

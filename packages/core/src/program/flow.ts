@@ -24,7 +24,10 @@ export interface PendantVisitor {
 
 /** What a program does, in the order in which it does it. */
 export type FlowEvent =
-  /** `written` is the step as the program has it; in `step` places have become poses. `stands` marks what the program does not say: a stop, or the time a loop takes to look again. */
+  /**
+   * `written` is the step as the program has it; in `step` places have become poses. `stands` marks what the program
+   * does not say: a stop, or the time a loop takes to look again.
+   */
   | {
       readonly kind: "step";
       readonly step: PrimitiveStep;

@@ -52,8 +52,8 @@ interface Bounds {
 }
 
 /**
- * Whether held parts can be followed through a program: not where a decision leads to other motions or grips, because then a part
- * may be held on one side and stand on the other.
+ * Whether held parts can be followed through a program: not where a decision leads to other motions or grips, because
+ * then a part may be held on one side and stand on the other.
  */
 export function partsAreFollowed(program: Pick<Program, "steps" | "routines">): boolean {
   const acts = (steps: readonly Step[], inside: readonly string[]): boolean =>
@@ -68,7 +68,10 @@ export function partsAreFollowed(program: Pick<Program, "steps" | "routines">): 
   return ![...everyStep(program)].some(step => step.type === "if" && listsOf(step).some(list => acts(list, [])));
 }
 
-/** Where the fingers meet: the TCP of the first tool that a move names, else of the cell's tool, else that of a gripper on the bare flange. */
+/**
+ * Where the fingers meet: the TCP of the first tool that a move names, else of the cell's tool, else that of a gripper
+ * on the bare flange.
+ */
 function gripOf(program: Program, cell: CellGeometry): Pose<"flange", "grip"> {
   const named = [...everyStep(program)].find(step => step.type === "move" && step.target.tool !== undefined);
   const tool = named?.type === "move" ? program.tools[named.target.tool!] : undefined;
@@ -80,12 +83,14 @@ function gripOf(program: Program, cell: CellGeometry): Pose<"flange", "grip"> {
 }
 
 /**
- * The parts that a laid-out program takes, carries and puts down, played on a collider: `rewind`, then `enter` every segment in order.
+ * The parts that a laid-out program takes, carries and puts down, played on a collider: `rewind`, then `enter` every
+ * segment in order.
  *
- * A part is taken where the gripper closes: it moves with the flange as it stood then, does not count as an obstacle for the last
- * link and the tool, and where the gripper opens it stays. One part is held at a time, and it takes nothing along that lies on it. A
- * part may touch what it rests on (all that is nearer than `TOUCH_M`) for `SEAT_M` of its way, and be nearer than the margin for so
- * much more; beyond that it is watched like any other solid of the robot. What the cell says is held is carried from the start.
+ * A part is taken where the gripper closes: it moves with the flange as it stood then, does not count as an obstacle
+ * for the last link and the tool, and where the gripper opens it stays. One part is held at a time, and it takes
+ * nothing along that lies on it. A part may touch what it rests on (all that is nearer than `TOUCH_M`) for `SEAT_M` of
+ * its way, and be nearer than the margin for so much more; beyond that it is watched like any other solid of the robot.
+ * What the cell says is held is carried from the start.
  */
 export class GraspedParts {
   /** Times the gripper closed on a part, and on nothing. */

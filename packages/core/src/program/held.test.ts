@@ -179,7 +179,8 @@ describe("M-49 held part: laws", () => {
   });
 
   test("held part: found exactly where the swept box of the carton meets a block, by arithmetic (40 blocks, seed 49)", () => {
-    // The tool keeps its orientation on straight lines, so the carton sweeps boxes along the axes: up at y = 0.2, then across at the carrying height.
+    // The tool keeps its orientation on straight lines, so the carton sweeps boxes along the axes: up at y = 0.2, then
+    // across at the carrying height.
     const random = seededRandom(49);
     const found = { met: 0, clear: 0 };
     const half = 0.05;

@@ -59,7 +59,10 @@ export interface GripperStep extends StepBase {
   readonly type: "gripper";
   readonly closed: boolean;
 }
-/** Writes an output. With `pulse_s` a digital output goes back to the opposite after that time, while the program goes on. */
+/**
+ * Writes an output. With `pulse_s` a digital output goes back to the opposite after that time, while the program goes
+ * on.
+ */
 export interface SetStep extends StepBase {
   readonly type: "set";
   readonly signal: string;

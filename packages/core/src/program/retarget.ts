@@ -19,7 +19,8 @@ export interface Retargeted {
 const SAME_RAD = 1e-6;
 
 /**
- * The same work done by another robot at the same place. Home stays home; every other point keeps where the tool tip is:
+ * The same work done by another robot at the same place. Home stays home; every other point keeps where the tool tip
+ * is:
  *
  *   worldFromTcp = worldFromBase · baseFromFlange(from, q) · flangeFromTcp
  *

@@ -4,8 +4,8 @@ import type { Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";
 
 /**
- * A target that counts from the places of a pallet, but stands outside the pallet's step, stays where it is at the first
- * place. So a step can be dragged out of its pallet, and the program still means something.
+ * A target that counts from the places of a pallet, but stands outside the pallet's step, stays where it is at the
+ * first place. So a step can be dragged out of its pallet, and the program still means something.
  */
 export function settled(program: Program): Program {
   if (Object.keys(program.pallets).length === 0) return program;

@@ -1,7 +1,10 @@
 import type { Signals } from "../ports.ts";
 import type { Condition } from "./program.ts";
 
-/** Whether a condition is true now. A digital line counts as 0 or 1 beside a level, an analogue one as on when it is not 0. */
+/**
+ * Whether a condition is true now. A digital line counts as 0 or 1 beside a level, an analogue one as on when it is not
+ * 0.
+ */
 export function holds(when: Condition, signals: Pick<Signals, "read">): boolean {
   const value = signals.read(when.signal);
   if ("is" in when) return (typeof value === "number" ? value !== 0 : value) === when.is;

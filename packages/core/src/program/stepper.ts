@@ -13,7 +13,10 @@ import { SignalTable, holds } from "./signals.ts";
 
 /** What the stepper is doing after an `advance`. Lent until the next call. */
 export interface StepperState {
-  /** "running" while there are steps; "done" after the last; "stopped" after `stop`; "fault" when a step cannot be carried out. */
+  /**
+   * "running" while there are steps; "done" after the last; "stopped" after `stop`; "fault" when a step cannot be
+   * carried out.
+   */
   kind: "running" | "done" | "stopped" | "fault";
   /** Id of the step being executed, or "". */
   step: string;

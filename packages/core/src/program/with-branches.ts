@@ -10,7 +10,10 @@ import type { MoveStep, Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";
 
 export interface WithBranchesOptions {
-  /** "needed": only where the nearest posture is another one than the plan's. "everywhere": at every pose, for controllers with rules of their own. */
+  /**
+   * "needed": only where the nearest posture is another one than the plan's. "everywhere": at every pose, for
+   * controllers with rules of their own.
+   */
   readonly where?: "needed" | "everywhere";
   readonly worldFromBase?: Pose<"world", "base">;
   readonly start_rad?: ArrayLike<number>;
@@ -28,11 +31,11 @@ interface Wish {
 }
 
 /**
- * The program with the postures of its plan written into it, so that what executes it step by step, an exported text or a
- * controller, goes the same way as the plan that was checked. A pose gets its branch; a joint move for which the branch
- * is not enough, since it should end whole turns away from the nearest posture, becomes a move to joint angles. Targets
- * that have a branch or joint angles keep them, and so does a step that is carried out in different postures, at the
- * places of a pallet for instance.
+ * The program with the postures of its plan written into it, so that what executes it step by step, an exported text or
+ * a controller, goes the same way as the plan that was checked. A pose gets its branch; a joint move for which the
+ * branch is not enough, since it should end whole turns away from the nearest posture, becomes a move to joint angles.
+ * Targets that have a branch or joint angles keep them, and so does a step that is carried out in different postures,
+ * at the places of a pallet for instance.
  *
  * @returns the very same program when nothing is to be written.
  */

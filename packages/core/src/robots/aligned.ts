@@ -5,8 +5,8 @@ import { subtract } from "../spatial/vector.ts";
 import type { Joint, SerialArm } from "./arm.ts";
 
 /**
- * The same arm with its link frames at the joints and, all angles 0, turned as the base: only the axes say which way a joint
- * turns (row L-10). Poses of the flange are unchanged; poses of the links are the old ones turned.
+ * The same arm with its link frames at the joints and, all angles 0, turned as the base: only the axes say which way a
+ * joint turns (row L-10). Poses of the flange are unchanged; poses of the links are the old ones turned.
  */
 export function alignedWithBase(arm: SerialArm): SerialArm {
   const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());

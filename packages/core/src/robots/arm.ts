@@ -2,8 +2,9 @@ import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 
 /**
- * Limits of a joint. The names are those of a joint that turns; of a joint that slides the same fields hold m, m/s, m/s², m/s³
- * and N (docs/decisions/0012): `slideLimits` writes them by their own names, `jointText` says them in their own unit.
+ * Limits of a joint. The names are those of a joint that turns; of a joint that slides the same fields hold m, m/s,
+ * m/s², m/s³ and N (docs/decisions/0012): `slideLimits` writes them by their own names, `jointText` says them in their
+ * own unit.
  */
 export interface JointLimits {
   readonly lower_rad: number;

@@ -30,9 +30,9 @@ const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
 
 /**
- * Lengths, zeros and turning senses of a six-joint arm with axis 1 square to 2, axes 2 and 3 parallel, and 4 meeting 5; axis 6
- * may lie anywhere. The base may stand anyhow. Read off the joint axes with all angles 0, then held against forward
- * kinematics at 40 random postures to 1e-6.
+ * Lengths, zeros and turning senses of a six-joint arm with axis 1 square to 2, axes 2 and 3 parallel, and 4 meeting 5;
+ * axis 6 may lie anywhere. The base may stand anyhow. Read off the joint axes with all angles 0, then held against
+ * forward kinematics at 40 random postures to 1e-6.
  *
  * @returns null for an arm of another kind.
  */
@@ -92,7 +92,9 @@ export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
   return position_m < AGREES && angle_rad < AGREES ? geometry : null;
 }
 
-/** Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it. */
+/**
+ * Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it.
+ */
 export function generalSixFlange(geometry: GeneralSixGeometry, q_rad: ArrayLike<number>): Pose<"base", "flange"> {
   const { a1_m, b_m, c2_m, e_m, centre_m, axis4, axis5, turn, signs, offsets_rad, baseFromFormula, wristFromFlange } =
     geometry;

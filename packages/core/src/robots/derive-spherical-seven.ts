@@ -20,9 +20,9 @@ const Z: Vector3 = [0, 0, 1];
 type Seven = [number, number, number, number, number, number, number];
 
 /**
- * Lengths, zeros and turning senses of a seven-joint arm with each axis square to the next, axes 1, 2, 3 through one point, 5, 6, 7
- * through another, and 4 meeting 3 and 5 between them; meeting to within 2 mm. The base may stand anyhow. Read off the joint
- * axes with all angles 0, then held against forward kinematics at 40 random postures.
+ * Lengths, zeros and turning senses of a seven-joint arm with each axis square to the next, axes 1, 2, 3 through one
+ * point, 5, 6, 7 through another, and 4 meeting 3 and 5 between them; meeting to within 2 mm. The base may stand
+ * anyhow. Read off the joint axes with all angles 0, then held against forward kinematics at 40 random postures.
  *
  * @returns null for an arm of another kind.
  */
@@ -82,7 +82,9 @@ export function sphericalSevenFromArm(arm: SerialArm): SphericalSevenGeometry | 
   return position_m < EXACT_M ? geometry : { ...geometry, deviation_m: position_m };
 }
 
-/** Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it. */
+/**
+ * Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it.
+ */
 export function sphericalSevenFlange(
   geometry: SphericalSevenGeometry,
   q_rad: ArrayLike<number>,

@@ -19,7 +19,10 @@ import {
 } from "./axes.ts";
 import type { ThreeParallelGeometry } from "./robot.ts";
 
-/** Right angles written with ten digits, as robot files have them, are right angles. What is left over, refinement takes out. */
+/**
+ * Right angles written with ten digits, as robot files have them, are right angles. What is left over, refinement takes
+ * out.
+ */
 const ROUNDING = 1e-7;
 /** The formula must meet the arm at every tried posture this closely [m, rad]. */
 const AGREES = 1e-6;
@@ -29,9 +32,9 @@ const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
 
 /**
- * Lengths, zeros and turning senses of an arm whose axes 2, 3 and 4 are parallel and square to axis 1, with 5 square to 4 and
- * 6 square to 5, each meeting the one before. The base may stand anyhow. Read off the joint axes with all angles 0, then held
- * against forward kinematics at 40 random postures to 1e-6.
+ * Lengths, zeros and turning senses of an arm whose axes 2, 3 and 4 are parallel and square to axis 1, with 5 square to
+ * 4 and 6 square to 5, each meeting the one before. The base may stand anyhow. Read off the joint axes with all angles
+ * 0, then held against forward kinematics at 40 random postures to 1e-6.
  *
  * “Front” is the side the wrist is on when all angles are 0.
  *
@@ -103,7 +106,9 @@ export function threeParallelFromArm(arm: SerialArm): ThreeParallelGeometry | nu
   return position_m < AGREES && angle_rad < AGREES ? geometry : null;
 }
 
-/** Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it. */
+/**
+ * Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it.
+ */
 export function threeParallelFlange(geometry: ThreeParallelGeometry, q_rad: ArrayLike<number>): Pose<"base", "flange"> {
   const { a1_m, b_m, c2_m, c3_m, c5_m, signs, offsets_rad, baseFromFormula, wristFromFlange } = geometry;
   const steps: readonly Turned[] = [

@@ -7,7 +7,9 @@ import type { SerialArm } from "./arm.ts";
 import { axesAtZero, clean, deviation, distanceFrom, product, type Line, type Turned } from "./axes.ts";
 import type { OrthoParallelGeometry } from "./robot.ts";
 
-/** Lengths below this are taken for 0, directions this close for the same: rounding of dimensions as files give them. */
+/**
+ * Lengths below this are taken for 0, directions this close for the same: rounding of dimensions as files give them.
+ */
 const ROUNDING = 1e-9;
 /** The formula must meet the arm at every tried posture this closely [m, rad]. */
 const VERIFIED = 1e-9;
@@ -16,9 +18,9 @@ const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
 
 /**
- * The seven lengths, zeros and turning senses of an arm whose inverse the closed form knows: axis 1 upright through the base's
- * origin, axes 2 and 3 parallel and level, axes 4, 5, 6 through one point, 4 square to 3. Read off the joint axes with all
- * angles 0, then held against forward kinematics at 40 random postures to 1e-9.
+ * The seven lengths, zeros and turning senses of an arm whose inverse the closed form knows: axis 1 upright through the
+ * base's origin, axes 2 and 3 parallel and level, axes 4, 5, 6 through one point, 4 square to 3. Read off the joint
+ * axes with all angles 0, then held against forward kinematics at 40 random postures to 1e-9.
  *
  * Of equivalent sets the one with a1 ≥ 0, c2, c3 > 0, c4 ≥ 0 and small zeros of the wrist is taken.
  *
@@ -102,7 +104,9 @@ export function orthoParallelFromArm(arm: SerialArm): OrthoParallelGeometry | nu
   return agrees(arm, geometry) ? geometry : null;
 }
 
-/** Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it. */
+/**
+ * Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it.
+ */
 export function orthoParallelFlange(geometry: OrthoParallelGeometry, q_rad: ArrayLike<number>): Pose<"base", "flange"> {
   const { signs, offsets_rad, a1_m, a2_m, b_m, c1_m, c2_m, c3_m, c4_m } = geometry;
   const steps: readonly Turned[] = [

@@ -41,7 +41,8 @@ const turnX = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(X, angl
 const turnZ = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(Z, angle_rad));
 
 /**
- * The arm of a D-H table. Its joints turn about z or slide along it, −z where the sense is −1, of frames laid as the convention lays them.
+ * The arm of a D-H table. Its joints turn about z or slide along it, −z where the sense is −1, of frames laid as the
+ * convention lays them.
  *
  * @param joints  name and limits of every row, in order.
  */
@@ -89,12 +90,13 @@ const PARALLEL = 1e-11;
 const MEETS = 1e-12;
 
 /**
- * The D-H table of an arm. The first frame stands on axis 1 where it is nearest the base, turned as the base; the rest of
- * it stays in `baseFromFirst` (identity for an arm whose axis 1 is the base's z). The last frame goes to the flange where the
- * flange lies on the last axis (modified) or anywhere (standard); `lastFromFlange` is what remains.
+ * The D-H table of an arm. The first frame stands on axis 1 where it is nearest the base, turned as the base; the rest
+ * of it stays in `baseFromFirst` (identity for an arm whose axis 1 is the base's z). The last frame goes to the flange
+ * where the flange lies on the last axis (modified) or anywhere (standard); `lastFromFlange` is what remains.
  *
- * Forward kinematics of the table and of the arm agree to 1e-12 m and rad unless two neighbouring axes are inclined by less
- * than a thousandth of a degree: their common normal is then kilometres away, and the numbers of the table with it.
+ * Forward kinematics of the table and of the arm agree to 1e-12 m and rad unless two neighbouring axes are inclined by
+ * less than a thousandth of a degree: their common normal is then kilometres away, and the numbers of the table with
+ * it.
  *
  * @see Craig, Introduction to Robotics, ch. 3; Denavit, Hartenberg, J. Appl. Mech. 1955.
  */
@@ -157,7 +159,9 @@ function normalBetween(axis: Line, next: Line, before: Normal): Normal {
   return { x, from, to: addScaled(from, unit, Math.abs(gap) < MEETS ? 0 : gap) };
 }
 
-/** The last frame: at the flange itself when its z lies on the last axis, else at the common normal with the flange's z. */
+/**
+ * The last frame: at the flange itself when its z lies on the last axis, else at the common normal with the flange's z.
+ */
 function lastNormal(last: Line, ends: Line, flange: Pose, before: Normal): Normal {
   const z = rotate(flange.quaternion, Z);
   const away = subtract(flange.position, last.through);

@@ -7,8 +7,9 @@ import { orthoParallelFromArm } from "./derive.ts";
 import type { KinematicFamily } from "./robot.ts";
 
 /**
- * How the inverse of any arm is solved, read off its axes: the first of ortho-parallel, three-parallel, spherical-seven and
- * general-6r that meets its forward kinematics; else general, which only numeric methods solve; that of an arm with a slide is always general.
+ * How the inverse of any arm is solved, read off its axes: the first of ortho-parallel, three-parallel, spherical-seven
+ * and general-6r that meets its forward kinematics; else general, which only numeric methods solve; that of an arm with
+ * a slide is always general.
  */
 export const familyOf = (arm: SerialArm): KinematicFamily =>
   (arm.joints.some(isSlide)

@@ -13,7 +13,10 @@ export type KnownOfRobot = Partial<Omit<Robot, "arm" | "family" | "assumptions">
   readonly assumptions?: readonly string[];
 };
 
-/** A robot around an arm that came from a file: closed form where its axes allow, home at zero or as near as the limits allow. */
+/**
+ * A robot around an arm that came from a file: closed form where its axes allow, home at zero or as near as the limits
+ * allow.
+ */
 export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
   const family = familyOf(arm);
   const assumptions = [...(known.assumptions ?? [])];
@@ -74,7 +77,10 @@ function optional(known: KnownOfRobot): Partial<Robot> {
   };
 }
 
-/** From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links and slides, which no reach exceeds. */
+/**
+ * From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links and
+ * slides, which no reach exceeds.
+ */
 function reachOf(arm: SerialArm, family: KinematicFamily): number {
   switch (family.kind) {
     case "ortho-parallel":

@@ -18,8 +18,8 @@ export const hardBrakingTime_s = (robot: Robot): number =>
   Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
 
 /**
- * The same for a stop that spares the gears: at worst full acceleration is taken back, turned round and let go again, each
- * within the jerk.
+ * The same for a stop that spares the gears: at worst full acceleration is taken back, turned round and let go again,
+ * each within the jerk.
  */
 export const brakingTime_s = (robot: Robot): number =>
   Math.max(

@@ -182,7 +182,8 @@ test("T-17 the speed of a move is a share of the robot's own greatest speed: ano
   };
   const cruise = (one: Robot, ratio: number): number =>
     planProgram(turn(q, ratio, one), one, { start_rad: one.home_rad }).plan.duration_s;
-  // A trapezoid of length L at speed v and acceleration a takes L / v + v / a; rounding its corners takes up to 0.1 s more.
+  // A trapezoid of length L at speed v and acceleration a takes L / v + v / a; rounding its corners takes up to 0.1 s
+  // more.
   const { speed_rad_s: v, acceleration_rad_s2: a } = robot.arm.joints[0]!.limits;
   expect(Math.abs(cruise(robot, 0.1) - (2.5 / (0.1 * v) + (0.1 * v) / a) - 0.05)).toBeLessThanOrEqual(0.05 + 1e-9);
   expect(Math.abs(cruise(slower, 0.1) - (2.5 / (0.025 * v) + (0.025 * v) / a) - 0.05)).toBeLessThanOrEqual(0.05 + 1e-9);

@@ -52,8 +52,9 @@ const JOINT = [
 ];
 
 /**
- * A robot from one data file (rows T-16, M-60), format `twincell.robot`, version 1: metres and radians, joints base first, each
- * placed on the one before by a point and roll, pitch, yaw. What the file leaves out is assumed, and said in `assumptions`.
+ * A robot from one data file (rows T-16, M-60), format `twincell.robot`, version 1: metres and radians, joints base
+ * first, each placed on the one before by a point and roll, pitch, yaw. What the file leaves out is assumed, and said
+ * in `assumptions`.
  *
  * @see docs/add-a-robot.md
  */

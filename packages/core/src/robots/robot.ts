@@ -44,10 +44,11 @@ export interface ThreeParallelGeometry {
 }
 
 /**
- * Ortho-parallel basis whose wrist axes need not meet in one point: axis 1 square to axis 2, axes 2 and 3 parallel, axes 4 and 5
- * meet; axis 6 may lie anywhere (ABB GoFa, FANUC CRX). Up to 16 postures, found by a search over θ6.
+ * Ortho-parallel basis whose wrist axes need not meet in one point: axis 1 square to axis 2, axes 2 and 3 parallel,
+ * axes 4 and 5 meet; axis 6 may lie anywhere (ABB GoFa, FANUC CRX). Up to 16 postures, found by a search over θ6.
  *
- *   formulaFromWrist = Rz(θ1) · T(a1, b, 0) · Ry(θ2) · Tz(c2) · Ry(θ3) · T(centre) · Rot(axis4, θ4) · Rot(axis5, θ5) · turn · Tx(e) · Rz(θ6)
+ *   formulaFromWrist = Rz(θ1) · T(a1, b, 0) · Ry(θ2) · Tz(c2) · Ry(θ3) · T(centre) · Rot(axis4, θ4) · Rot(axis5, θ5) ·
+ *   turn · Tx(e) · Rz(θ6)
  *
  * The formula's origin is on axis 1 at the height of axis 2. The wrist frame is on axis 6, where that is nearest to the
  * centre: the point where axes 4 and 5 meet.
@@ -77,7 +78,8 @@ export interface GeneralSixGeometry {
  *   formulaFromWrist = Rz(θ1) · Ry(θ2) · Rz(θ3) · Tz(c3) · Ry(θ4) · Rz(θ5) · Tz(c5) · Ry(θ6) · Rz(θ7)
  *
  * The formula's origin is the shoulder. An arm may miss the formula by `deviation_m` (CAD offsets of less than a
- * millimetre): its postures are found by moving the formula's target until forward kinematics of the arm meets the wanted pose.
+ * millimetre): its postures are found by moving the formula's target until forward kinematics of the arm meets the
+ * wanted pose.
  */
 export interface SphericalSevenGeometry {
   readonly kind: "spherical-seven";
@@ -99,7 +101,9 @@ export type KinematicFamily =
   | GeneralSixGeometry
   | { readonly kind: "general" };
 
-/** How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach. */
+/**
+ * How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach.
+ */
 export interface DeclaredWorkspace {
   readonly reach_m: number;
   /** The wrist centre seen from the flange [m]. */
@@ -118,7 +122,9 @@ export interface Robot {
   /** The vendor's world origin seen from the root link: V+ counts from the shoulder. */
   readonly baseFromVendorWorld: Pose<"base", "vendor-world">;
   readonly home_rad: readonly number[];
-  /** Nominal load and load at reduced speed; missing where no source states them, and then nothing is judged by them. */
+  /**
+   * Nominal load and load at reduced speed; missing where no source states them, and then nothing is judged by them.
+   */
   readonly payload_kg?: number;
   readonly payloadMax_kg?: number;
   /** Reach, published or computed (`sources` and `assumptions` say which), and between which points it is measured. */
@@ -134,7 +140,10 @@ export interface Robot {
   readonly mass_kg?: number;
   /** Masses of links 1 … n, where they are published. The base does not move. */
   readonly masses?: readonly LinkMass[];
-  /** True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the real robot. */
+  /**
+   * True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the
+   * real robot.
+   */
   readonly madeUpGeometry?: boolean;
   /** True where no program that is not this project's was held against the arm's forward kinematics. */
   readonly unverified?: true;

@@ -12,7 +12,9 @@ export interface SlideLimits {
   readonly force_N?: number;
 }
 
-/** Limits of a sliding joint as `Joint.limits` holds them (docs/decisions/0012): the same numbers, metres for radians. */
+/**
+ * Limits of a sliding joint as `Joint.limits` holds them (docs/decisions/0012): the same numbers, metres for radians.
+ */
 export const slideLimits = ({
   lower_m,
   upper_m,

@@ -16,7 +16,10 @@ export function transformMesh(mesh: TriangleMesh, intoFromMesh: Pose): TriangleM
   return { positions, indices: mesh.indices };
 }
 
-/** The mesh with every coordinate times `factor` (0.001 for a file in millimetres). Negative factors keep the winding outward. */
+/**
+ * The mesh with every coordinate times `factor` (0.001 for a file in millimetres). Negative factors keep the winding
+ * outward.
+ */
 export function scaleMesh(mesh: TriangleMesh, factor: number): TriangleMesh {
   const positions = mesh.positions.map(value => value * factor);
   if (factor >= 0) return { positions, indices: mesh.indices };

@@ -19,8 +19,8 @@ export interface ShapeDeviation {
 const POINT_M = 1e-7;
 
 /**
- * Two-sided distance of a drawn link from the true one, at points spread evenly over both surfaces. What lies inside the other counts 0;
- * of the drawn solids, which may overlap, only the outside is looked at.
+ * Two-sided distance of a drawn link from the true one, at points spread evenly over both surfaces. What lies inside
+ * the other counts 0; of the drawn solids, which may overlap, only the outside is looked at.
  *
  * @param drawn    closed solids that together are the link.
  * @param truth    surface of the link; may have holes.
@@ -55,7 +55,10 @@ export function shapeDeviation(
   return { trueOutsideDrawn_m, drawnOutsideTrue_m };
 }
 
-/** Meshes of hollow castings are open where the next link sits in them: in the plane of such an opening half a turn is seen. */
+/**
+ * Meshes of hollow castings are open where the next link sits in them: in the plane of such an opening half a turn is
+ * seen.
+ */
 const OPEN_TURNS = 0.25;
 
 class Meter {
@@ -93,7 +96,9 @@ class Meter {
   }
 }
 
-/** How often a surface winds around a point: the solid angle of all its triangles over 4π (Van Oosterom, Strackee 1983). */
+/**
+ * How often a surface winds around a point: the solid angle of all its triangles over 4π (Van Oosterom, Strackee 1983).
+ */
 function turnsAround({ positions: p, indices }: TriangleMesh, [x, y, z]: Vector3): number {
   let sum = 0;
   for (let t = 0; t < indices.length; t += 3) {

@@ -10,7 +10,8 @@ export interface MassProperties {
 }
 
 /**
- * Volume, centre and inertia of a closed mesh, summed over the tetrahedra between the origin and its triangles (a, b, c):
+ * Volume, centre and inertia of a closed mesh, summed over the tetrahedra between the origin and its triangles (a, b,
+ * c):
  *
  *   V = Σ d / 6,   c = Σ d (a + b + c) / 24 V,   ∫ x_i x_j = Σ d / 120 ( Σ p_i Σ p_j + Σ p_i p_j ),   d = a · (b × c)
  *

@@ -37,13 +37,19 @@ export function meshVolume(mesh: TriangleMesh): number {
   return six / 6;
 }
 
-/** Edges that do not have exactly one triangle on either side. 0 on both counts: the mesh is closed and its winding agrees. */
+/**
+ * Edges that do not have exactly one triangle on either side. 0 on both counts: the mesh is closed and its winding
+ * agrees.
+ */
 export interface EdgeCensus {
   readonly open: number;
   readonly crowded: number;
 }
 
-/** Counts edges with one triangle (open) and with more than two, or two of the same winding (crowded). Vertices must be welded. */
+/**
+ * Counts edges with one triangle (open) and with more than two, or two of the same winding (crowded). Vertices must be
+ * welded.
+ */
 export function censusOfEdges(mesh: TriangleMesh): EdgeCensus {
   const index = mesh.indices;
   const vertices = mesh.positions.length / 3;
@@ -71,8 +77,8 @@ export function isClosed(mesh: TriangleMesh): boolean {
 }
 
 /**
- * Whether triangles that share an edge agree on which side is out: along every edge as many run one way as the other, but
- * for one at an open border. Vertices must be welded.
+ * Whether triangles that share an edge agree on which side is out: along every edge as many run one way as the other,
+ * but for one at an open border. Vertices must be welded.
  */
 export function isOriented({ indices, positions }: TriangleMesh): boolean {
   const vertices = positions.length / 3;

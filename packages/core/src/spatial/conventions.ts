@@ -115,7 +115,9 @@ export const fromPaperXyz = (
   out: Quaternion = [0, 0, 0, 1],
 ): Quaternion => fromKukaAbc(az_deg, ay_deg, ax_deg, out);
 
-/** Unity's inspector: turns about z, then x, then y, all of the world [deg], left-handed.  R_unity = Ry(y) · Rx(x) · Rz(z) (row L-23). */
+/**
+ * Unity's inspector: turns about z, then x, then y, all of the world [deg], left-handed.  R_unity = Ry(y) · Rx(x) · Rz(z) (row L-23).
+ */
 export const fromUnityAngles = (
   x_deg: number,
   y_deg: number,

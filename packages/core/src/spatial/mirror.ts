@@ -8,8 +8,8 @@ export type FlippedAxis = "x" | "y" | "z";
  * The same place seen from a frame of the other hand whose axes match this one's except one, which points the other way
  * (row L-22):  p ← S p,  R ← S R S,  S = diag with −1 at the flipped axis, det S = −1.  Undoes itself.
  *
- * A turn about the flipped axis keeps its sign, turns about the two others change theirs (row L-73): a clockwise angle about
- * an axis of a left-handed frame is a counter-clockwise one about its image.
+ * A turn about the flipped axis keeps its sign, turns about the two others change theirs (row L-73): a clockwise angle
+ * about an axis of a left-handed frame is a counter-clockwise one about its image.
  *
  * @param out  may be `seen`.
  */

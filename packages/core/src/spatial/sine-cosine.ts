@@ -9,11 +9,12 @@ const ROUND = 6755399441055744;
 
 /**
  * out[0] = sin(angle), out[1] = cos(angle), within one unit in the last place of `Math.sin` and `Math.cos`. For hot
- * loops: `Math.*` branches on the angle, which a processor mispredicts half the time when angles vary; this does not, and
- * is the same to the last bit in every engine.
+ * loops: `Math.*` branches on the angle, which a processor mispredicts half the time when angles vary; this does not,
+ * and is the same to the last bit in every engine.
  * NaN and ±∞ give NaN.
  *
- * @see Cody & Waite, Software Manual for the Elementary Functions, 1980; coefficients of fdlibm 5.3, k_sin.c and k_cos.c.
+ * @see Cody & Waite, Software Manual for the Elementary Functions, 1980; coefficients of fdlibm 5.3, k_sin.c and
+ * k_cos.c.
  */
 export function sineCosine(angle_rad: number, out: Float64Array): void {
   if (!(Math.abs(angle_rad) < LARGEST_rad)) {

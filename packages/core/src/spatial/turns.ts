@@ -2,7 +2,9 @@ import { fromAxisAngle, multiply, type Quaternion } from "./quaternion.ts";
 import { wrapAngle } from "./units.ts";
 import type { Vector3 } from "./vector.ts";
 
-/** Three turns one after the other, each about an axis of the frame as turned so far (intrinsic): "zyx" is Rz · Ry · Rx. */
+/**
+ * Three turns one after the other, each about an axis of the frame as turned so far (intrinsic): "zyx" is Rz · Ry · Rx.
+ */
 export type EulerSequence =
   | "xyz"
   | "xzy"
@@ -41,7 +43,8 @@ export function fromEulerAngles(
  *
  * @param q    unit quaternion. Read only.
  * @param out  receives first, second, third and is returned.
- * @see Bernardes, Viollet, Quaternion to Euler angles conversion: a direct, general and computationally efficient method, PLoS ONE 17(11) 2022.
+ * @see Bernardes, Viollet, Quaternion to Euler angles conversion: a direct, general and computationally efficient
+ * method, PLoS ONE 17(11) 2022.
  */
 export function toEulerAngles(sequence: EulerSequence, q: Quaternion, out: Vector3 = [0, 0, 0]): Vector3 {
   // The method counts turns about fixed axes: the same three in reverse order.

@@ -9,7 +9,10 @@ import {
 } from "../spatial/quaternion.ts";
 import { cross, dot, norm, normalize, type Vector3 } from "../spatial/vector.ts";
 
-/** One direction for each top edge of a box-like piece, counter-clockwise from above, from the edge on its +x side (row N-52). */
+/**
+ * One direction for each top edge of a box-like piece, counter-clockwise from above, from the edge on its +x side (row
+ * N-52).
+ */
 export const ORIENTATION_PRESET_COUNT = 4;
 
 const SQUARE_ROOT_HALF = Math.SQRT1_2;
@@ -41,8 +44,9 @@ export function orientationPresetAxis(
 /**
  * Orientation of the tool tip for an aid: 45° to the top, 45° to the side, 90° to the edge (row N-52).
  *
- * Without `near`, tcp z = aid axis and tcp x runs along the edge, counter-clockwise from above. With it, tcp z is the same
- * and the turn about it is the one reached from `near` by the shortest rotation: a tool that is round does not care, the wrist does.
+ * Without `near`, tcp z = aid axis and tcp x runs along the edge, counter-clockwise from above. With it, tcp z is the
+ * same and the turn about it is the one reached from `near` by the shortest rotation: a tool that is round does not
+ * care, the wrist does.
  *
  * @param worldFromObject  piece with z up. Read only.
  * @param near             present orientation of the tip in the world.

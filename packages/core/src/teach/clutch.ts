@@ -2,7 +2,10 @@ import { compose, copyPose, identity, inverse, type Pose } from "../spatial/pose
 import { angleBetween, slerp } from "../spatial/quaternion.ts";
 import { distance, lerp, type Vector3 } from "../spatial/vector.ts";
 
-/** How a grip follows the hand. `limits` bound one frame's motion, so that a hand lost and found again never makes the tip leap. */
+/**
+ * How a grip follows the hand. `limits` bound one frame's motion, so that a hand lost and found again never makes the
+ * tip leap.
+ */
 export interface ClutchMode {
   /** Tip travel per hand travel. Angles are never scaled. */
   readonly scale: number;
@@ -28,7 +31,10 @@ export interface Grip {
   readonly scratch: Pose<"world", "tcp">;
 }
 
-/** Closes the grip: the tip keeps its place in the hand from here on, so taking it moves nothing (row L-29). A new grip each time. */
+/**
+ * Closes the grip: the tip keeps its place in the hand from here on, so taking it moves nothing (row L-29). A new grip
+ * each time.
+ */
 export function takeGrip(worldFromHand: Pose<"world", "hand">, worldFromTcp: Pose<"world", "tcp">): Grip {
   return {
     handFromTcp: compose(inverse(worldFromHand), worldFromTcp),
@@ -49,7 +55,8 @@ export function takeGrip(worldFromHand: Pose<"world", "hand">, worldFromTcp: Pos
  * Then at most `maxStep_m` and `maxTurn_rad` from the last answer; the rest is caught up in later frames.
  *
  * @param grip  advanced in place.
- * @param out   receives the pose and is returned. A hand that is not a number leaves it at the last answer. Allocates nothing.
+ * @param out   receives the pose and is returned. A hand that is not a number leaves it at the last answer. Allocates
+ *   nothing.
  */
 export function clutchStep(
   grip: Grip,

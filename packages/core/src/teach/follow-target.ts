@@ -48,12 +48,14 @@ export type Followed =
     };
 
 /**
- * One frame of an arm that follows a moving target with its tool tip (rows X-18, L-25): inverse kinematics anew, nearest to where the
- * arm stands and inside its limits, then as far as the joint speeds allow, all joints in proportion.
+ * One frame of an arm that follows a moving target with its tool tip (rows X-18, L-25): inverse kinematics anew,
+ * nearest to where the arm stands and inside its limits, then as far as the joint speeds allow, all joints in
+ * proportion.
  *
  *   q′ = q + min(1, 1 / max_j |q*_j − q_j| / (v_j dt)) (q* − q)
  *
- * The closed form where the arm has one, else damped least squares. A target out of reach is approached as near as can be.
+ * The closed form where the arm has one, else damped least squares. A target out of reach is approached as near as can
+ * be.
  *
  * @param q     joint angles [rad] the arm stands at. Read only.
  * @param dt_s  duration of the frame; over 0.

@@ -10,7 +10,10 @@ import { identity, type Pose } from "../spatial/pose.ts";
 import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 
-/** Which axes a Cartesian jog runs along: those of the world, the robot base, the tool tip, or worldFromUser of a work frame. */
+/**
+ * Which axes a Cartesian jog runs along: those of the world, the robot base, the tool tip, or worldFromUser of a work
+ * frame.
+ */
 export type JogFrame = "world" | "base" | "tool" | Quaternion;
 
 /** What the hand asks for: joint speeds [rad/s], or a twist of the tool tip [m/s, rad/s about the tip]. */
@@ -60,7 +63,10 @@ export interface JogScratch {
   readonly axis: Vector3;
   readonly turns: Vector3;
   readonly turn: Quaternion;
-  /** The last turn in place of the joints, this step's, and the wish it was for, so that one does not undo the other. All 0 where the tip moved. */
+  /**
+   * The last turn in place of the joints, this step's, and the wish it was for, so that one does not undo the other.
+   * All 0 where the tip moved.
+   */
   turnedLast: Float64Array;
   turnedNow: Float64Array;
   readonly turnedFor: Float64Array;

@@ -6,8 +6,9 @@ import type { Robot } from "../robots/robot.ts";
 import type { Jogged, JogBlock } from "./jogged.ts";
 
 /**
- * One step of each joint at its own speed. Where one is asked for more than it can do, all are slowed by the same share;
- * a joint at its limit stops there and the others go on. A joint that stands outside its limits can only come back.
+ * One step of each joint at its own speed. Where one is asked for more than it can do, all are slowed by the same
+ * share; a joint at its limit stops there and the others go on. A joint that stands outside its limits can only come
+ * back.
  */
 export function jogJoints(
   robot: Robot,

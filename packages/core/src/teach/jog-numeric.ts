@@ -33,14 +33,20 @@ export function fitScratch(scratch: JogScratch, robot: Robot): void {
 
 const STEPS = 40;
 const MET = { position_m: 1e-9, angle_rad: 1e-9 } as const;
-/** A solution this near [rad, the joint that turns most] continues the posture; a farther one is compared with what lies behind the singularity. */
+/**
+ * A solution this near [rad, the joint that turns most] continues the posture; a farther one is compared with what lies
+ * behind the singularity.
+ */
 const CONTINUES_RAD = 0.2;
-/** On a singularity the downhill direction does not show the way out: the descent starts again this far beside it, to both sides, farther where nearer finds nothing [rad]. */
+/**
+ * On a singularity the downhill direction does not show the way out: the descent starts again this far beside it, to
+ * both sides, farther where nearer finds nothing [rad].
+ */
 const BESIDE_RAD = [0.03, 0.1, 0.25] as const;
 
 /**
- * The posture that continues `start` at `baseFromFlange`, into `best`, or why there is none. Descends from where the arm
- * stands; where that finds nothing near, from beside it along the directions in which the tip does not move.
+ * The posture that continues `start` at `baseFromFlange`, into `best`, or why there is none. Descends from where the
+ * arm stands; where that finds nothing near, from beside it along the directions in which the tip does not move.
  */
 export function continueNumeric(robot: Robot, jog: NumericJog, scratch: JogScratch): Reach | undefined {
   const { damped, found } = jog;
@@ -83,7 +89,10 @@ function attempt(
 }
 const aim = { ...MET, steps: STEPS, turnWeight_m: 0 };
 
-/** Directions of joint space in which the tip hardly moves: the weakest of JᵀJ, and the next where there are more joints than coordinates. */
+/**
+ * Directions of joint space in which the tip hardly moves: the weakest of JᵀJ, and the next where there are more joints
+ * than coordinates.
+ */
 function freeDirections({ arm, damped }: NumericJog, q: Float64Array): readonly Float64Array[] {
   const n = q.length;
   const rows = jacobian(arm, q, null, damped.rows, damped.jacobian);
@@ -95,8 +104,9 @@ function freeDirections({ arm, damped }: NumericJog, q: Float64Array): readonly 
 }
 
 /**
- * Turns the joints from `start` towards `best` while the tip stands still: a share of the way that the joint speeds allow, then
- * down to the present pose again from there. On a singularity there is such a way; elsewhere the descent comes back.
+ * Turns the joints from `start` towards `best` while the tip stands still: a share of the way that the joint speeds
+ * allow, then down to the present pose again from there. On a singularity there is such a way; elsewhere the descent
+ * comes back.
  *
  * @param baseFromStart  pose of the flange at `start`.
  * @returns true with the turned posture in `best`; false, with `best` as it was, where no turn is possible.

@@ -26,8 +26,8 @@ export function continueOrthoParallel(
 }
 
 /**
- * Copies the solution that continues the posture into `best`: joints 2 and 3, which no singularity of wrist or shoulder makes
- * leap, decide first, then least travel; of two that are as good as equal, one inside the limits.
+ * Copies the solution that continues the posture into `best`: joints 2 and 3, which no singularity of wrist or shoulder
+ * makes leap, decide first, then least travel; of two that are as good as equal, one inside the limits.
  */
 function nearest(
   robot: Robot,
@@ -59,10 +59,11 @@ function nearest(
 }
 
 /**
- * On a singularity the wanted direction needs other angles of the free joints however short the step is: turns them towards
- * these while the tip stands still to 1e-8 (m, rad). `turns` is how far joints 1, 4 and 6 want to go.
+ * On a singularity the wanted direction needs other angles of the free joints however short the step is: turns them
+ * towards these while the tip stands still to 1e-8 (m, rad). `turns` is how far joints 1, 4 and 6 want to go.
  *
- * @returns true with the turned posture in `best`; else with `best` as it was: false where no joint is free, why not where one stands at its limit.
+ * @returns true with the turned posture in `best`; else with `best` as it was: false where no joint is free, why not
+ *   where one stands at its limit.
  */
 export function turnOrthoParallel(
   robot: Robot,
@@ -81,7 +82,10 @@ export function turnOrthoParallel(
   return done;
 }
 
-/** Wrist centre on axis 1: the solver leaves joints 1 and 4 where it is told to, once the centre is on the axis to the last digit. */
+/**
+ * Wrist centre on axis 1: the solver leaves joints 1 and 4 where it is told to, once the centre is on the axis to the
+ * last digit.
+ */
 function turnShoulder(robot: Robot, family: OrthoParallelGeometry, dt_s: number, scratch: JogScratch): boolean | Reach {
   const { start, best, ahead, baseFromFlange, raw, turns } = scratch;
   flangePose(robot.arm, start, baseFromFlange, scratch.arm);

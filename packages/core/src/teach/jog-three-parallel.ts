@@ -7,7 +7,10 @@ import { solveThreeParallel } from "../kinematics/three-parallel.ts";
 import type { Robot, ThreeParallelGeometry } from "../robots/robot.ts";
 import { jointOutside, MIN_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 
-/** Two branches are the same posture where they meet; elsewhere going over costs this much per sine of the elbow or metre of the shoulder. */
+/**
+ * Two branches are the same posture where they meet; elsewhere going over costs this much per sine of the elbow or
+ * metre of the shoulder.
+ */
 const STAYS = 1000;
 /** Of two postures as near as this [rad] one inside the limits is taken. */
 const SAME_TRAVEL_RAD = 1e-6;
@@ -17,12 +20,18 @@ const LEAP_RAD = 1;
 const SHORTEST_STRAIGHT = 1e-5;
 const SHORTEST = 1e-10;
 const SETTLED = 1e-9;
-/** Farther than this [m, sine] from where two branches meet the one does not go on as the other; the wrist may be run straight through from farther. */
+/**
+ * Farther than this [m, sine] from where two branches meet the one does not go on as the other; the wrist may be run
+ * straight through from farther.
+ */
 const TURNED_OVER = 1e-3;
 const BENT = 0.3;
 const TURN = 2 * Math.PI;
 
-/** The posture that continues `start` at `baseFromFlange`: into `best`, or why there is none. The candidates stay in `raw`, each next to the start. */
+/**
+ * The posture that continues `start` at `baseFromFlange`: into `best`, or why there is none. The candidates stay in
+ * `raw`, each next to the start.
+ */
 export function continueThreeParallel(
   robot: Robot,
   family: ThreeParallelGeometry,
@@ -68,15 +77,19 @@ export function continueThreeParallel(
 const isStraight = (family: ThreeParallelGeometry, q: Float64Array): boolean =>
   Math.abs(wristSine(family, q)) < ON_SINGULARITY;
 
-/** The shortest step worth a look [m, rad]: from a straight wrist the formula takes a shorter one for none; elsewhere rounding of the arm's file ends it. */
+/**
+ * The shortest step worth a look [m, rad]: from a straight wrist the formula takes a shorter one for none; elsewhere
+ * rounding of the arm's file ends it.
+ */
 export const shortestOfThreeParallel = (family: ThreeParallelGeometry, start: Float64Array): number =>
   isStraight(family, start) ? SHORTEST_STRAIGHT : SHORTEST;
 
 /**
- * Axes 4 and 6 parallel: joints 2, 3, 4 and 6 are then a four-bar linkage that turns while the tip stands still to 1e-8 (m, rad).
- * Turns it towards the θ6 of a candidate of the last step, the nearest to which the way is free.
+ * Axes 4 and 6 parallel: joints 2, 3, 4 and 6 are then a four-bar linkage that turns while the tip stands still to 1e-8
+ * (m, rad). Turns it towards the θ6 of a candidate of the last step, the nearest to which the way is free.
  *
- * @returns true with the turned posture in `best`; else with `best` as it was: false where there is no such way, why not where one ends at a limit.
+ * @returns true with the turned posture in `best`; else with `best` as it was: false where there is no such way, why
+ *   not where one ends at a limit.
  */
 export function turnThreeParallel(
   robot: Robot,
@@ -130,7 +143,10 @@ export function turnThreeParallel(
   return false;
 }
 
-/** Undefined where θ6 can be turned so far in place; false where the linkage does not go on; why not, where a joint meets its limit. */
+/**
+ * Undefined where θ6 can be turned so far in place; false where the linkage does not go on; why not, where a joint
+ * meets its limit.
+ */
 function lookAhead(
   robot: Robot,
   family: ThreeParallelGeometry,
@@ -198,12 +214,17 @@ function put(
   out[joint] = q + TURN * Math.round((next[joint]! - q) / TURN);
 }
 
-/** Whether `best` stands in another branch than `start` and nowhere near to where the two meet: the posture itself does not go on. */
+/**
+ * Whether `best` stands in another branch than `start` and nowhere near to where the two meet: the posture itself does
+ * not go on.
+ */
 export const endsThere = (family: ThreeParallelGeometry, { start, best }: JogScratch): boolean =>
   turnedOver(family, start, best, 0) > TURNED_OVER ||
   (wristSine(family, start) * wristSine(family, best) < 0 && Math.abs(wristSine(family, start)) > BENT);
 
-/** How far the start is from where its shoulder and elbow meet those of a posture [m, sine]; 0 where these are the same. */
+/**
+ * How far the start is from where its shoulder and elbow meet those of a posture [m, sine]; 0 where these are the same.
+ */
 function turnedOver(family: ThreeParallelGeometry, start: Float64Array, q: Float64Array, at: number): number {
   const elbow = elbowSine(family, start, 0);
   const shoulder = aheadOf(family, start, 0);

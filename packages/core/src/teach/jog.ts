@@ -18,7 +18,10 @@ const AXES = ["x", "y", "z"] as const;
 /** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
 const ALL_BUT_STANDING = 1e-6;
 const SHORTEST = 1e-12;
-/** A step cut down to all but nothing that then asks the joints for less than this share of their speed: between the two lies a leap. */
+/**
+ * A step cut down to all but nothing that then asks the joints for less than this share of their speed: between the two
+ * lies a leap.
+ */
 const LEAPT = 0.02;
 /** What is left of a step that leaves the reach is taken up to this near to the edge [m, rad]. */
 const AT_THE_EDGE = 1e-5;
@@ -30,10 +33,11 @@ const SAME_WISH = 0.99;
  *
  *   worldFromTcp′ = ( p + F v dt,  exp(F ω dt) · R ),   F = axes of the jog frame
  *
- * Follows the branch the arm is in. A step that asks a joint for more than its speed is shortened as a whole, so that near
- * a singularity the tip slows down instead of the arm jumping; on a singularity the free joints turn in place towards the
- * wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on do (row N-39),
- * rotation goes or stops as one (row N-41). Where none can, the last piece to the edge is taken, to 1e-5 (m, rad).
+ * Follows the branch the arm is in. A step that asks a joint for more than its speed is shortened as a whole, so that
+ * near a singularity the tip slows down instead of the arm jumping; on a singularity the free joints turn in place
+ * towards the wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on
+ * do (row N-39), rotation goes or stops as one (row N-41). Where none can, the last piece to the edge is taken, to 1e-5
+ * (m, rad).
  *
  * The ortho-parallel and three-parallel families jog by their closed forms, every other arm by damped least squares.
  *
@@ -220,7 +224,10 @@ function towards(
   return turned === false && family.kind !== "ortho-parallel" ? NO_WAY_OUT : typeof turned === "boolean" ? 0 : turned;
 }
 
-/** On a singularity: turns joints while the tip stands still, into `out`. False where no joint is free; why not, where one stands at its limit. */
+/**
+ * On a singularity: turns joints while the tip stands still, into `out`. False where no joint is free; why not, where
+ * one stands at its limit.
+ */
 function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
   const { family } = robot;
   const { start, best, turnedNow, numeric } = scratch;
@@ -236,7 +243,10 @@ function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratc
   return true;
 }
 
-/** Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is returned. */
+/**
+ * Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is
+ * returned.
+ */
 function solveAt(
   cell: JogCell,
   shift: Vector3,
@@ -277,7 +287,10 @@ const NO_WAY_OUT: Reach = {
   because: "The arm stands on a singularity, and no turn in place of its joints brings the tip that way.",
 };
 
-/** Whether this step turned in place against the last one; if not, it is the last one from now on. Without it, a limit on either side would rock the arm for ever. */
+/**
+ * Whether this step turned in place against the last one; if not, it is the last one from now on. Without it, a limit
+ * on either side would rock the arm for ever.
+ */
 function undoesTheLast({ turnedNow, turnedLast }: JogScratch): boolean {
   let along = 0;
   for (let j = 0; j < turnedNow.length; j++) along += turnedNow[j]! * turnedLast[j]!;

@@ -21,8 +21,8 @@ export type Held =
   | { readonly kind: "too-heavy"; readonly stuck: Stuck };
 
 /**
- * Slows runs of motions for their torques, load by load. A run is slowed as a whole: its way and its blends stay as they are. Where torques
- * are unknown, or nobody asked, runs go through as they come.
+ * Slows runs of motions for their torques, load by load. A run is slowed as a whole: its way and its blends stay as
+ * they are. Where torques are unknown, or nobody asked, runs go through as they come.
  */
 export class Gentler {
   readonly gentled: Gentled[] = [];

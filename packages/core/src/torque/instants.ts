@@ -17,8 +17,8 @@ export const jointState = (joints: number): JointState => ({
 });
 
 /**
- * Goes through the instants of a segment in order: every knot of its cubics from both sides, since accelerations may jump
- * there, and as many in between as `period_s` asks for. A rest is seen at its beginning and its end.
+ * Goes through the instants of a segment in order: every knot of its cubics from both sides, since accelerations may
+ * jump there, and as many in between as `period_s` asks for. A rest is seen at its beginning and its end.
  *
  * @param state  receives each instant before `visit` is called.
  */
@@ -53,7 +53,9 @@ export function eachInstant(segment: Segment, period_s: number, state: JointStat
   }
 }
 
-/** The joints at one instant of a segment, `t_s` counted from its start; at a knot as the interval after it has them. */
+/**
+ * The joints at one instant of a segment, `t_s` counted from its start; at a knot as the interval after it has them.
+ */
 export function instantAt(segment: Segment, t_s: number, state: JointState): void {
   const { q, qd, qdd } = state;
   const n = q.length;

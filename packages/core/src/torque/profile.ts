@@ -21,8 +21,8 @@ export interface TorqueProfile {
 export type TorqueSeries = TorqueProfile | { readonly kind: "unknown"; readonly sentence: string };
 
 /**
- * Torques that a plan asks of every joint, by inverse dynamics (rows X-10, L-15): weight, inertia, centrifugal torques, rotors where they
- * are published, and the load that the program's payload steps say. Friction is not in it.
+ * Torques that a plan asks of every joint, by inverse dynamics (rows X-10, L-15): weight, inertia, centrifugal torques,
+ * rotors where they are published, and the load that the program's payload steps say. Friction is not in it.
  */
 export function torqueProfile(
   plan: Plan,
@@ -56,7 +56,10 @@ export function torqueProfile(
   };
 }
 
-/** Torques at any instant of a plan, as `torqueProfile` has them along all of it. The answer of `at` is reused by the next call. */
+/**
+ * Torques at any instant of a plan, as `torqueProfile` has them along all of it. The answer of `at` is reused by the
+ * next call.
+ */
 export type TorqueAt =
   | { readonly kind: "known"; readonly at: (t_s: number) => Float64Array }
   | { readonly kind: "unknown"; readonly sentence: string };

@@ -17,7 +17,10 @@ import { loadsAlong, torqueModel, type LoadOptions } from "./loads.ts";
 
 /** How the joints are driven along a plan. Torques saturate at the published limits. */
 export type Control =
-  /** A spring and a damper on every joint (row L-12), critically damped where the plan starts, beside what holds the arm's own weight. */
+  /**
+   * A spring and a damper on every joint (row L-12), critically damped where the plan starts, beside what holds the
+   * arm's own weight.
+   */
   | { readonly kind: "drives"; readonly bandwidth_rad_s: number }
   /** The same with gains of one's own, and nothing beside them. */
   | { readonly kind: "gains"; readonly gains: readonly DriveGains[] }
@@ -53,7 +56,8 @@ export type Tracking =
 const STEP_S = 2.5e-4;
 
 /**
- * Accuracy over speed (row X-45): the plan is driven by forward dynamics at each override, and what the flange is off is measured.
+ * Accuracy over speed (row X-45): the plan is driven by forward dynamics at each override, and what the flange is off
+ * is measured.
  *
  *   q̈ = FD(q, q̇, τ),   τ from the control,   q̇ ← q̇ + q̈ h,   q ← q + q̇ h
  *

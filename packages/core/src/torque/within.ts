@@ -19,12 +19,16 @@ export interface TorquePeak {
   /** What of it holds the arm up. */
   readonly weight_Nm: number;
   readonly limit_Nm: number;
-  /** Share of its speed at which the motion would keep within the limit here: 1 when it does, 0 when the weight alone is too much. */
+  /**
+   * Share of its speed at which the motion would keep within the limit here: 1 when it does, 0 when the weight alone is
+   * too much.
+   */
   readonly share: number;
 }
 
 /**
- * Share of speed at which a torque fits: with all times 1/s as long, inertia and centrifugal torques fall with s², the weight does not.
+ * Share of speed at which a torque fits: with all times 1/s as long, inertia and centrifugal torques fall with s², the
+ * weight does not.
  *
  *   |g + (τ − g) s²| ≤ τ_max
  */
@@ -36,7 +40,8 @@ export function shareWithin(torque_Nm: number, weight_Nm: number, limit_Nm: numb
 }
 
 /**
- * Of every joint the instant that asks most of it: the one that has to be slowed most, else the one with the greatest share of its limit.
+ * Of every joint the instant that asks most of it: the one that has to be slowed most, else the one with the greatest
+ * share of its limit.
  *
  * @param models  one for each segment.
  * @returns one peak a joint; joints whose limit is not known have an infinite one.

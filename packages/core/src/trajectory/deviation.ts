@@ -63,7 +63,10 @@ export function jointMoveDeviation(
   return value > best ? { deviation_m: value, share: refined } : { deviation_m: best, share };
 }
 
-/** Postures along a straight TCP line between which joint interpolation keeps to the line; or the share of the line that has none. */
+/**
+ * Postures along a straight TCP line between which joint interpolation keeps to the line; or the share of the line that
+ * has none.
+ */
 export type LineConfigurations =
   | { readonly kind: "postures"; readonly q_rad: readonly Float64Array[]; readonly deviation_m: number }
   | { readonly kind: "out-of-reach"; readonly share: number };

@@ -8,7 +8,10 @@ const MOST_HALVINGS = 8;
 /** [rad] between the cubic in time and the cubic along the path. One radian moves the TCP by about a metre. */
 const TIME_TOLERANCE = 2e-7;
 
-/** Collects the nodes of one part in time: places along the path as a rounded law reaches them. Used again from run to run. */
+/**
+ * Collects the nodes of one part in time: places along the path as a rounded law reaches them. Used again from run to
+ * run.
+ */
 export class Emission {
   private readonly law: RoundedLaw;
   private readonly joints: number;

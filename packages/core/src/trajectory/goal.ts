@@ -36,7 +36,10 @@ export class GoalFinder {
     this.follower = follower;
   }
 
-  /** The posture of a move's target that was taught or chosen, else that with the least total travel from `near` (row N-16), inside the limits. */
+  /**
+   * The posture of a move's target that was taught or chosen, else that with the least total travel from `near` (row
+   * N-16), inside the limits.
+   */
   find(move: Move, near: Float64Array): Goal {
     const told = move.q_rad ?? move.chosen_rad;
     if (told !== undefined) return { kind: "posture", q_rad: told };

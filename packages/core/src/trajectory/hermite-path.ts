@@ -162,7 +162,9 @@ export class HermitePath {
     return this.follower.meet(this.goal, q);
   }
 
-  /** The same in small steps from s0, where the last node is. Returns the place that cannot be reached, if there is one. */
+  /**
+   * The same in small steps from s0, where the last node is. Returns the place that cannot be reached, if there is one.
+   */
   private creep(
     path: PosePath,
     tcpFromFlange: Pose<"tcp", "flange">,

@@ -13,8 +13,8 @@ import { paceOf, type Slowed, type TimedRun } from "./run-timing.ts";
 const PLACES = 16;
 
 /**
- * The joint move that starts and ends at rest: all joints together along one line, on a rounded trapezoid of speed whose
- * few knots the plan's cubics pass exactly. The joint with the least room rules speed, acceleration and jerk.
+ * The joint move that starts and ends at rest: all joints together along one line, on a rounded trapezoid of speed
+ * whose few knots the plan's cubics pass exactly. The joint with the least room rules speed, acceleration and jerk.
  */
 export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, robot: Robot): TimedRun {
   const n = q0.length;
@@ -83,8 +83,8 @@ const segment = (
 });
 
 /**
- * The joint furthest over its limit when the same leg takes a shorter time, by `factor`: of speed where there is one, since
- * that is the plainest reason, then of acceleration, then of jerk.
+ * The joint furthest over its limit when the same leg takes a shorter time, by `factor`: of speed where there is one,
+ * since that is the plainest reason, then of acceleration, then of jerk.
  */
 function hardest(q0: Float64Array, q1: Float64Array, law: RestProfile, factor: number, robot: Robot): Slowed {
   // The law begins with constant jerk up to its highest acceleration.

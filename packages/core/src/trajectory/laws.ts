@@ -59,8 +59,8 @@ export const trapezoidTime_s = (distance: number, maxSpeed: number, maxAccelerat
     : 2 * Math.sqrt(distance / maxAcceleration);
 
 /**
- * Trapezoid of speed with its corners rounded: the fastest way over `distance` from rest to rest with limited jerk. Between
- * its knots the jerk is constant, so a cubic through places and speeds is exact.
+ * Trapezoid of speed with its corners rounded: the fastest way over `distance` from rest to rest with limited jerk.
+ * Between its knots the jerk is constant, so a cubic through places and speeds is exact.
  *
  *   ramp to v:  t = v/a + a/j (or 2 √(v/j) where a is not reached),  way = v t / 2
  *

@@ -23,8 +23,8 @@ export interface PlanOptions {
   /** Time a gripper is given to close or open [s]. */
   readonly gripper_s?: number;
   /**
-   * Slows every run of motions until no joint is asked for more torque than it can give (rows X-10, X-46), where masses and torque limits
-   * are published. `payload` is what the flange carries before the first payload step.
+   * Slows every run of motions until no joint is asked for more torque than it can give (rows X-10, X-46), where masses
+   * and torque limits are published. `payload` is what the flange carries before the first payload step.
    */
   readonly withinTorque?: { readonly payload?: Payload };
   /** What inputs are, for decisions; false and 0 otherwise. */
@@ -59,9 +59,9 @@ const MOST_PLANNED = 200_000;
 /**
  * Lays a program out in time: joints together on joint moves, straight and circular TCP paths within `tolerance_m`,
  * corners blended, and every joint within its speed and acceleration at every instant. Loops, calls and pallets are
- * carried out, a loop "forever" once; waits for signals take no time. Where the nearest posture at every target would lead to a
- * flip or into a limit, postures are chosen over the whole path (`chooseBranches`); `withBranches` writes them into the program. A program that cannot be carried out gives the plan
- * up to the step that stands in the way.
+ * carried out, a loop "forever" once; waits for signals take no time. Where the nearest posture at every target would
+ * lead to a flip or into a limit, postures are chosen over the whole path (`chooseBranches`); `withBranches` writes
+ * them into the program. A program that cannot be carried out gives the plan up to the step that stands in the way.
  *
  * The program is trusted to come from `parseProgram`.
  */

@@ -11,7 +11,8 @@ const startOf = (moves: readonly Move[], k: number, startFlange: Pose<"base", "f
   compose(moves[k - 1]?.baseFromFlange ?? startFlange, moves[k]!.flangeFromTcp);
 
 /**
- * The TCP path of move i, from its start to its target without blends; undefined for a circle through three points of one line.
+ * The TCP path of move i, from its start to its target without blends; undefined for a circle through three points of
+ * one line.
  *
  * @param moves        a run: moves that are passed into each other, since a spline leans on its neighbours.
  * @param startFlange  where the flange is when the run begins.

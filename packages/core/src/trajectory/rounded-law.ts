@@ -4,8 +4,8 @@
  *
  *   s̄(t) = (1/w) ∫ s over [t − w, t],   s̄˙(t) = (s(t) − s(t − w))/w,   s̄¨(t) = (ṡ(t) − ṡ(t − w))/w
  *
- * Where s̈ jumps by a, the rounded s⃛ is a/w. It takes w longer. Given at nodes with constant s̈ in between; before the first
- * and behind the last node s stands still. Filled again for every run; `at` allocates nothing.
+ * Where s̈ jumps by a, the rounded s⃛ is a/w. It takes w longer. Given at nodes with constant s̈ in between; before the
+ * first and behind the last node s stands still. Filled again for every run; `at` allocates nothing.
  */
 export class RoundedLaw {
   nodes = 0;
@@ -45,7 +45,8 @@ export class RoundedLaw {
       const r1 = this.rate[i]!;
       const dt = h > 0 ? (2 * h) / (r0 + r1) : 0;
       this.t[i] = this.t[i - 1]! + dt;
-      // s is a parabola over the interval: Simpson's rule is exact, and its middle lies (r0 − r1) dt / 8 above the chord.
+      // s is a parabola over the interval: Simpson's rule is exact, and its middle lies (r0 − r1) dt / 8 above the
+      // chord.
       this.sum[i] = this.sum[i - 1]! + dt * ((s[i - 1]! + s[i]!) / 2 + ((r0 - r1) * dt) / 12);
     }
   }

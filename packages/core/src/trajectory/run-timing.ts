@@ -24,7 +24,10 @@ const SLOWEST = 1e-10;
 const NEAR = 1e-6;
 /** A run is tried with less acceleration when this share of it or less would do. */
 const WORTHWHILE = 0.9;
-/** A run over its limits by more than this factor of time is eased where it is, not as a whole; so often; and a little more each time than was missing. */
+/**
+ * A run over its limits by more than this factor of time is eased where it is, not as a whole; so often; and a little
+ * more each time than was missing.
+ */
 const WORTH_EASING = 1.003;
 const EASING_ROUNDS = 8;
 const EASING_MORE = 1.01;
@@ -162,9 +165,9 @@ export class RunTimer {
   }
 
   /**
-   * Fastest run with its corners rounded. A slow run reaches its speed long before the corner is round: less acceleration
-   * with a corner rounded over as much less time has the same jerk, and the ramp as a whole is shortest when both take
-   * equally long.
+   * Fastest run with its corners rounded. A slow run reaches its speed long before the corner is round: less
+   * acceleration with a corner rounded over as much less time has the same jerk, and the ramp as a whole is shortest
+   * when both take equally long.
    *
    * @returns  share of the accelerations that is used, 0 … 1.
    */
@@ -189,7 +192,9 @@ export class RunTimer {
     for (let i = 0; i < this.nodes; i++) this.share[i] = softness * (steps[this.owner[i]!]!.acceleration?.ratio ?? 1);
   }
 
-  /** How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not. */
+  /**
+   * How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not.
+   */
   private worstShare(parts: readonly MotionSegment[]): number {
     let worst = 0;
     for (const part of parts)
@@ -224,8 +229,8 @@ export class RunTimer {
   }
 
   /**
-   * Lowers the pace where the parts are over a limit, and as long around it as corners are rounded over: rounding lets a
-   * bend of the path be entered faster than its place allows. The rest of the run keeps its pace.
+   * Lowers the pace where the parts are over a limit, and as long around it as corners are rounded over: rounding lets
+   * a bend of the path be entered faster than its place allows. The rest of the run keeps its pace.
    */
   private ease(parts: readonly MotionSegment[]): void {
     const { law } = this.rounder;

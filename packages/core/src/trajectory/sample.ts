@@ -84,7 +84,10 @@ function sampleMotion(segment: MotionSegment, i: number, t_s: number, outQ: Floa
   }
 }
 
-/** Accelerations of one interval at both ends: the cubic's second derivative is linear in between. @param out 2 n numbers. */
+/**
+ * Accelerations of one interval at both ends: the cubic's second derivative is linear in between. @param out 2 n
+ * numbers.
+ */
 export function intervalAccelerations(segment: MotionSegment, i: number, joints: number, out: Float64Array): void {
   const n = joints;
   const { times_s, q_rad, qd_rad_s } = segment;

@@ -9,7 +9,9 @@ import type { Vector3 } from "../spatial/vector.ts";
 import { cubicLaw, type LawPoint } from "./laws.ts";
 
 export interface TimedLineOptions {
-  /** How the turn angles go over time: by the same cubic as the position, or evenly (the paper says both, erratum E-24). */
+  /**
+   * How the turn angles go over time: by the same cubic as the position, or evenly (the paper says both, erratum E-24).
+   */
   readonly angles?: "cubic" | "linear";
   readonly sequence?: EulerSequence;
 }
@@ -81,8 +83,8 @@ export type FrameVerdict =
 const FINE: FrameVerdict = { kind: "fine" };
 
 /**
- * Steps 3 to 6 of Table A4, once a rendering frame: inverse kinematics of the pose, position check, joint speeds by Euler's
- * difference q̇ = (q − q_before)/Δt, speed check against what the motors can do (rows L-25, L-26, L-55, L-56).
+ * Steps 3 to 6 of Table A4, once a rendering frame: inverse kinematics of the pose, position check, joint speeds by
+ * Euler's difference q̇ = (q − q_before)/Δt, speed check against what the motors can do (rows L-25, L-26, L-55, L-56).
  */
 export class FrameCheck {
   readonly q_rad: Float64Array;

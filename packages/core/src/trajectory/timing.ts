@@ -44,7 +44,8 @@ const MOST_TURNS = 64;
  * Backwards, the largest x from which the end can still be met; forwards, the largest s̈ that stays below it. Both ends
  * of every interval are held to the accelerations. One instance per caller; allocates nothing.
  *
- * @see Pham & Pham, A new approach to time-optimal path parameterization based on reachability analysis, IEEE T-RO 2018.
+ * @see Pham & Pham, A new approach to time-optimal path parameterization based on reachability analysis, IEEE T-RO
+ * 2018.
  */
 export class PathTimer {
   private readonly limits: TimingLimits;

@@ -31,11 +31,13 @@ const LARGEST_M = 100;
 /**
  * Reads a Denavit–Hartenberg table. Convention and units are stated in the file, nothing is guessed.
  *
- * JSON: `{"convention":"modified","units":{"length":"mm","angle":"deg"},"rows":[{"a":0,"alpha":0,"d":420,"theta":0,"lower":-160,…}]}`
- * Text: `# convention: modified`, `# units: mm deg`, a line of column names, a line per joint; commas, semicolons, tabs or spaces between.
+ * JSON:
+ * `{"convention":"modified","units":{"length":"mm","angle":"deg"},"rows":[{"a":0,"alpha":0,"d":420,"theta":0,"lower":-160,…}]}`
+ * Text: `# convention: modified`, `# units: mm deg`, a line of column names, a line per joint; commas, semicolons, tabs
+ * or spaces between.
  *
- * Columns: a, alpha, d; theta (offset, 0), sense (1 or −1, 1), sigma (0 turns, 1 slides; 0), lower, upper, speed, acceleration, name.
- * Limits of a row that slides are in the unit of lengths. A modified row holds
+ * Columns: a, alpha, d; theta (offset, 0), sense (1 or −1, 1), sigma (0 turns, 1 slides; 0), lower, upper, speed,
+ * acceleration, name. Limits of a row that slides are in the unit of lengths. A modified row holds
  * Craig's a and α of the link before.
  */
 export function readDhTable(text: string, name = "arm"): DhRead | NotUnderstood {

@@ -16,9 +16,9 @@ export interface MissingFile {
 }
 
 /**
- * The file a reference means: `package://name/path`, `model://name/path`, `file:///path`, a path with `/` or `\`, absolute or
- * beside the file that names it. Where it is not there: the same with other capital letters, then its last parts in a folder
- * above, so that a robot moved or unpacked together with its meshes is whole again.
+ * The file a reference means: `package://name/path`, `model://name/path`, `file:///path`, a path with `/` or `\`,
+ * absolute or beside the file that names it. Where it is not there: the same with other capital letters, then its last
+ * parts in a folder above, so that a robot moved or unpacked together with its meshes is whole again.
  *
  * @param from  path of the file that holds the reference.
  */
@@ -61,7 +61,8 @@ export function resolveFile(reference: string, from: string, files: FileSource):
 }
 
 /**
- * The folder of a ROS package: one above the file, or beside one above it, that is called so or whose package.xml says so.
+ * The folder of a ROS package: one above the file, or beside one above it, that is called so or whose package.xml says
+ * so.
  */
 export function findPackage(name: string, from: string, files: FileSource): string | undefined {
   if (name === "" || name === "." || name === "..") return undefined;
@@ -111,7 +112,9 @@ function existing(written: string, files: FileSource): Existing | undefined {
 const told = ({ path, otherCase }: Existing, reference: string): FoundFile =>
   otherCase ? { kind: "found", path, note: `${reference} is spelt ${path}.` } : { kind: "found", path };
 
-/** Longest tail first: `a/b/c.stl`, then `b/c.stl`, then `c.stl`, each beside the file and in the two folders above it. */
+/**
+ * Longest tail first: `a/b/c.stl`, then `b/c.stl`, then `c.stl`, each beside the file and in the two folders above it.
+ */
 function inFoldersAbove(parts: readonly string[], here: string, files: FileSource): string | undefined {
   const kept = parts.filter(part => part !== "" && part !== "." && part !== ".." && !/^[A-Za-z]:$/.test(part));
   for (let first = Math.max(0, kept.length - HIGHEST); first < kept.length; first++) {

@@ -17,8 +17,8 @@ export interface ZipRead {
 }
 
 /**
- * Unpacks a ZIP archive into memory. What would grow beyond the limits, lead out of its folder or is encrypted is refused before a
- * byte is unpacked. Stored and deflated entries are read; ZIP64 is not.
+ * Unpacks a ZIP archive into memory. What would grow beyond the limits, lead out of its folder or is encrypted is
+ * refused before a byte is unpacked. Stored and deflated entries are read; ZIP64 is not.
  *
  * @param inflate  raw DEFLATE (RFC 1951); must never give more than `size` bytes, and throws for what is no DEFLATE.
  * @see PKWARE APPNOTE.TXT 6.3.10, 4.3

@@ -15,8 +15,9 @@ export interface CloudSurface {
 }
 
 /**
- * The surface around all cubes of a grid that hold a point (row N-65): nothing is made up between the points, and nothing that was
- * scanned is missed in a collision check. The grid becomes coarser until the surface has at most 60,000 triangles.
+ * The surface around all cubes of a grid that hold a point (row N-65): nothing is made up between the points, and
+ * nothing that was scanned is missed in a collision check. The grid becomes coarser until the surface has at most
+ * 60,000 triangles.
  *
  * @param positions  x y z of each point, any unit; the answer has the same.
  * @throws {Refusal} when no point has finite coordinates.

@@ -7,7 +7,9 @@ import { guessUnit } from "./unit.ts";
 const WELD = 2e-7;
 /** Coordinates beyond this are mistakes: squares and volumes of them lose their digits. */
 const LARGEST = 1e9;
-/** What parts without a colour wear: a single one the first, several one after the other, so that they are told apart. */
+/**
+ * What parts without a colour wear: a single one the first, several one after the other, so that they are told apart.
+ */
 const OWN_COLORS: readonly Rgb[] = (
   [
     [154, 167, 176],

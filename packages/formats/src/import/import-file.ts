@@ -19,8 +19,8 @@ export interface ImportOptions {
 export const IMPORT_ENDINGS: readonly string[] = [...SHAPE_ENDINGS, ...STEP_ENDINGS, "urdf", "xacro"];
 
 /**
- * Imports a file of shapes or a robot description: parts with names, colours and places in metres, z up, and a report of what was
- * mended. Whatever the bytes are, the answer is parts or one sentence.
+ * Imports a file of shapes or a robot description: parts with names, colours and places in metres, z up, and a report
+ * of what was mended. Whatever the bytes are, the answer is parts or one sentence.
  *
  * @param path   of the file in `files`; what it names is looked for from there.
  */
@@ -48,8 +48,8 @@ export function importFile(path: string, files: FileSource, options: ImportOptio
 }
 
 /**
- * Which files of a folder or archive are to be imported: a robot description where there is one (those that others include are left
- * out: the one nearest the top counts), else every shape.
+ * Which files of a folder or archive are to be imported: a robot description where there is one (those that others
+ * include are left out: the one nearest the top counts), else every shape.
  */
 export function filesToImport(paths: readonly string[]): readonly string[] {
   const sorted = [...paths].sort((a, b) => depth(a) - depth(b) || (a < b ? -1 : 1));

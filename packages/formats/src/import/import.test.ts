@@ -215,7 +215,8 @@ describe("fewer triangles", () => {
     expect(report.faces).toBeGreaterThan(3000);
     expect(report.bounds_change_m).toBeLessThan(1e-4);
     expect(report.open_edges).toBe(0);
-    // Triangles of that number on a ball of 100 mm stand off by about its sagitta, 0.2 mm: less would be no measurement.
+    // Triangles of that number on a ball of 100 mm stand off by about its sagitta, 0.2 mm: less would be no
+    // measurement.
     expect(report.max_deviation_m).toBeGreaterThan(2e-5);
     expect(report.max_deviation_m).toBeLessThan(3e-4);
     expect(report.rms_deviation_m).toBeLessThan(report.max_deviation_m);

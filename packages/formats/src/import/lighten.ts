@@ -30,8 +30,8 @@ export interface Lightened {
 }
 
 /**
- * Goals of the steps, times the goal of the end: every step makes its quadrics anew from the present surface, so that errors of the
- * early collapses do not add up.
+ * Goals of the steps, times the goal of the end: every step makes its quadrics anew from the present surface, so that
+ * errors of the early collapses do not add up.
  */
 const STEPS = [9, 8, 7, 6, 5, 4, 3, 2.5, 2, 1.7, 1.4, 1.2, 1];
 /** A closed surface has at least four. */
@@ -42,8 +42,8 @@ const MOST_MATERIALS = 20;
 /**
  * Parts with at most about so many triangles together and at most 20 colours, and the measured price of it.
  *
- * Each part gets its share by its triangles; corners are moved to where the sum of squared distances to the old planes is least
- * (Garland, Heckbert 1997). Bodies whose faces wear several colours keep the lines between the colours.
+ * Each part gets its share by its triangles; corners are moved to where the sum of squared distances to the old planes
+ * is least (Garland, Heckbert 1997). Bodies whose faces wear several colours keep the lines between the colours.
  *
  * @param adapters   triangles wanted, at least 4.
  * @param random  numbers in [0, 1) for the samples: the same numbers give the same report.

@@ -2,8 +2,8 @@ import { joinedMesh } from "./finish.ts";
 import type { ImportedPart } from "./part.ts";
 
 /**
- * Parts with at most so many different colours (T-50): colours that lie nearest to each other become one, weighted by their
- * triangles. Names, places and shapes stay.
+ * Parts with at most so many different colours (T-50): colours that lie nearest to each other become one, weighted by
+ * their triangles. Names, places and shapes stay.
  *
  * @param most  colours to keep, at least 1.
  */
@@ -30,7 +30,10 @@ export function withFewColors(parts: readonly ImportedPart[], most = 20): readon
   return parts.map(part => ({ ...part, color: newOf.get(part.color) ?? part.color }));
 }
 
-/** All parts of one colour as one part, named after the file: for assemblies with too many parts to be handled one by one. */
+/**
+ * All parts of one colour as one part, named after the file: for assemblies with too many parts to be handled one by
+ * one.
+ */
 export function mergedByColor(parts: readonly ImportedPart[], name: string): readonly ImportedPart[] {
   const colors = [...new Set(parts.map(({ color }) => color))];
   return colors.map((color, i) => ({

@@ -9,8 +9,8 @@ import type { RawPart, RawParts, Rgb } from "./part.ts";
 import { rawParts } from "./raw-parts.ts";
 
 /**
- * A URDF or xacro as parts that stand where its links stand with every joint at 0; each link is one, with its own colours.
- * What cannot be loaded is said in the notes, and the rest comes all the same.
+ * A URDF or xacro as parts that stand where its links stand with every joint at 0; each link is one, with its own
+ * colours. What cannot be loaded is said in the notes, and the rest comes all the same.
  *
  * @throws {Refusal} where the description is not understood or nothing of it has a shape.
  */

@@ -24,7 +24,9 @@ export interface OcctMesh {
   readonly index: { readonly array: ArrayLike<number> };
 }
 
-/** How finely curved faces become triangles: far from the true surface at most so much [mm] and so much turned [rad]. */
+/**
+ * How finely curved faces become triangles: far from the true surface at most so much [mm] and so much turned [rad].
+ */
 export const STEP_FINENESS = { linearDeflection: 0.05, angularDeflection: 0.3 } as const;
 /** What occt-import-js is asked: millimetres, so that the answer's unit is known. */
 export const STEP_PARAMETERS = {
@@ -37,7 +39,8 @@ export const STEP_PARAMETERS = {
 const NAMELESS = /^Open CASCADE STEP translator|^$|^COMPOUND$|^SOLID$/;
 
 /**
- * Parts of a STEP file with their place in the assembly and their colours; faces of another colour become a part of their own.
+ * Parts of a STEP file with their place in the assembly and their colours; faces of another colour become a part of
+ * their own.
  *
  * @throws {Refusal} where the kernel read nothing.
  */

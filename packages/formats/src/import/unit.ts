@@ -10,8 +10,9 @@ const PLAUSIBLE_M = [0.001, 100] as const;
 /**
  * How many metres a unit of the file is.
  *
- * A unit that the file states counts. Else the longest side L decides: L > 100 can be no metres, L < 3 hardly millimetres;
- * between the two both are possible (a 9 mm part, a 12 m scan), and the answer is `doubtful`: a person has to say.
+ * A unit that the file states counts. Else the longest side L decides: L > 100 can be no metres, L < 3 hardly
+ * millimetres; between the two both are possible (a 9 mm part, a 12 m scan), and the answer is `doubtful`: a person has
+ * to say.
  *
  * @param longest  longest side of the box around everything, in the file's units.
  * @param stated   metres per unit as the file says.

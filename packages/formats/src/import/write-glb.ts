@@ -2,8 +2,8 @@ import { meshBounds } from "@twincell/core";
 import type { ImportedPart } from "./part.ts";
 
 /**
- * Parts as a binary glTF 2: a node, a mesh and colour each, in metres, y up as the format has it. The assembly's names above a part
- * become nodes above it.
+ * Parts as a binary glTF 2: a node, a mesh and colour each, in metres, y up as the format has it. The assembly's names
+ * above a part become nodes above it.
  *
  * @see Khronos glTF 2.0, 4.4
  */

@@ -2,7 +2,8 @@ import { childOf, childrenOf, type Element } from "../xml.ts";
 import { byId, numbersOf } from "./dae-geometry.ts";
 
 /**
- * The diffuse colours of a COLLADA file: the symbol of a set of faces → bind_material → material → effect → diffuse colour.
+ * The diffuse colours of a COLLADA file: the symbol of a set of faces → bind_material → material → effect → diffuse
+ * colour.
  *
  * @returns red, green, blue from 0 to 1; undefined where the material has none: a texture, or nothing at all.
  */

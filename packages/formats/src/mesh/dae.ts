@@ -24,7 +24,9 @@ const PASSED = new Map([
   ["skew", "skew"],
 ]);
 
-/** `file` turns the surface upright as the file says; `z` takes its z for up whatever it says, as ROS does for robots. */
+/**
+ * `file` turns the surface upright as the file says; `z` takes its z for up whatever it says, as ROS does for robots.
+ */
 export type DaeUp = "file" | "z";
 
 /** A part of a COLLADA file where its nodes put it: metres, z up. */
@@ -45,8 +47,8 @@ export interface DaeParts {
 }
 
 /**
- * Reads the surfaces of a COLLADA file, every node where its matrices put it, in metres and z up whatever the file counts in.
- * Materials, cameras, lights and animations are passed over, and the report says so.
+ * Reads the surfaces of a COLLADA file, every node where its matrices put it, in metres and z up whatever the file
+ * counts in. Materials, cameras, lights and animations are passed over, and the report says so.
  */
 export function readDae(bytes: Uint8Array, up: DaeUp = "file"): MeshRead | NotUnderstood {
   return answering(() => {

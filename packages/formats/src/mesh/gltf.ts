@@ -9,8 +9,9 @@ import { finishMesh, type MeshRead } from "./report.ts";
 const DEEPEST = 256;
 
 /**
- * Reads the surfaces of a glTF 2, binary (GLB) or JSON: every node where its matrices put it, in metres, z up. Shape only:
- * materials, skins, morphs and animations are passed over. Compressed surfaces are refused with the name of the compression.
+ * Reads the surfaces of a glTF 2, binary (GLB) or JSON: every node where its matrices put it, in metres, z up. Shape
+ * only: materials, skins, morphs and animations are passed over. Compressed surfaces are refused with the name of the
+ * compression.
  *
  * @param other  bytes of a file that a JSON glTF names, by its address.
  */

@@ -4,7 +4,9 @@ import { addPolygon, MAX_CORNERS } from "./polygon.ts";
 import { finishMesh, type MeshRead } from "./report.ts";
 import { latin1 } from "./text.ts";
 
-/** Reads the surface of a Wavefront OBJ: vertices and faces. Faces with more than three corners are cut into triangles. */
+/**
+ * Reads the surface of a Wavefront OBJ: vertices and faces. Faces with more than three corners are cut into triangles.
+ */
 export function readObj(bytes: Uint8Array): MeshRead | NotUnderstood {
   return answering(() => {
     const text = latin1(bytes).replace(/\\\r?\n/g, " ");

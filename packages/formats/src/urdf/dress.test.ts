@@ -15,7 +15,9 @@ function chainOf(): UrdfChain {
   return chain;
 }
 
-/** A triangle whose first corner is at the given place in the world (y up in the file), in nested nodes, with a picture. */
+/**
+ * A triangle whose first corner is at the given place in the world (y up in the file), in nested nodes, with a picture.
+ */
 const PNG = Uint8Array.of(137, 80, 78, 71, 13, 10, 26, 10);
 function gltf(change: (whole: Record<string, unknown[]>) => void = () => undefined): Uint8Array {
   const corners = new Float32Array([0, 0, 0, 0.1, 0, 0, 0, 0.1, 0]);
@@ -72,7 +74,8 @@ describe("L-09 a glTF robot dresses the URDF robot and is gone", () => {
       picture: { mime: "image/png", bytes: PNG },
     });
     expect([...surfaces[0]!.uv!]).toEqual([0, 0, 1, 0, 0, 1]);
-    // In the world the corners are (0, 0, 0.5), (0.1, 0, 0.5), (0, 0, 0.6); link 1 stands at 0.5 m, turned by 90° about z.
+    // In the world the corners are (0, 0, 0.5), (0.1, 0, 0.5), (0, 0, 0.6); link 1 stands at 0.5 m, turned by 90° about
+    // z.
     [0, 0, 0, 0, -0.1, 0, 0, 0, 0.1].forEach((value, i) => {
       expect(surfaces[0]!.positions[i]).toBeCloseTo(value, 7);
     });

@@ -5,8 +5,8 @@ import type { UrdfRobot } from "./model.ts";
 export type LinkPlaces = ReadonlyMap<string, { readonly link: number; readonly armLinkFromLink: Pose }>;
 
 /**
- * Masses of the moving links 1 … n, each with all that is bolted to it; undefined unless every one has a mass and an inertia,
- * for half of them says nothing about torques.
+ * Masses of the moving links 1 … n, each with all that is bolted to it; undefined unless every one has a mass and an
+ * inertia, for half of them says nothing about torques.
  *
  *   I = Σ ( R I_k Rᵀ + m_k ( |r_k|² 1 − r_k r_kᵀ ) ),   r_k from the common centre to that of part k
  */
@@ -59,7 +59,10 @@ export function massesOf(robot: UrdfRobot, places: LinkPlaces, joints: number): 
   });
 }
 
-/** Inertia in the file's order (xx xy xz yy yz zz) turned into the arm link's directions, in core's order (xx yy zz xy xz yz). */
+/**
+ * Inertia in the file's order (xx xy xz yy yz zz) turned into the arm link's directions, in core's order (xx yy zz xy
+ * xz yz).
+ */
 function turned(
   [xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0]: readonly number[],
   armLinkFromInertial: Pose,

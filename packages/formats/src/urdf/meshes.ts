@@ -14,7 +14,8 @@ export interface LoadedMeshes {
 }
 
 /**
- * Loads the meshes that shapes of a chain name: `chain.shapes` to draw it, `solidShapes(chain)` to check it. A missing one is listed, and the rest is loaded all the same.
+ * Loads the meshes that shapes of a chain name: `chain.shapes` to draw it, `solidShapes(chain)` to check it. A missing
+ * one is listed, and the rest is loaded all the same.
  *
  * @param path  of the robot file, where its references start from.
  */

@@ -16,8 +16,8 @@ export interface UrdfOptions {
 }
 
 /**
- * The arm as a URDF: a link per joint, every joint with its limits, the flange as a fixed link. Numbers have all their digits:
- * read again, forward kinematics is the same to 1e-12. URDF has no place for accelerations.
+ * The arm as a URDF: a link per joint, every joint with its limits, the flange as a fixed link. Numbers have all their
+ * digits: read again, forward kinematics is the same to 1e-12. URDF has no place for accelerations.
  */
 export function writeUrdf(arm: SerialArm, options: UrdfOptions = {}): string {
   const { base = "base_link", tip = "tool0", side } = options;
@@ -108,8 +108,8 @@ function origin({ position, quaternion }: Pose): Written {
 const digits = (value: number): string => String(value || 0);
 
 /**
- * R = Rz(yaw) · Ry(pitch) · Rx(roll). Pitch and roll are taken after the yaw has been turned back: near pitch ±90°, where yaw
- * and roll turn about one line, they still make up for each other's rounding.
+ * R = Rz(yaw) · Ry(pitch) · Rx(roll). Pitch and roll are taken after the yaw has been turned back: near pitch ±90°,
+ * where yaw and roll turn about one line, they still make up for each other's rounding.
  */
 function rollPitchYaw(quaternion: Quaternion): readonly [roll: number, pitch: number, yaw: number] {
   const [r00, r01, r02, r10, r11, r12, r20] = toMatrix(quaternion);

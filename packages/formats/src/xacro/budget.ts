@@ -1,8 +1,8 @@
 import { Refusal } from "../refusal.ts";
 
 /**
- * What expanding one file may cost in all: a text that doubles itself, a macro that calls itself and a list of a thousand
- * million items end in a sentence.
+ * What expanding one file may cost in all: a text that doubles itself, a macro that calls itself and a list of a
+ * thousand million items end in a sentence.
  */
 export class Budget {
   private work = 20_000_000;

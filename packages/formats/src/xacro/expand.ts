@@ -16,8 +16,8 @@ import { propertyInto } from "./property.ts";
 const STEP = 20;
 
 /**
- * Expands one xacro: a walk over the elements that writes a new tree, so that what was read stays as it is and a block or a
- * macro can be used again.
+ * Expands one xacro: a walk over the elements that writes a new tree, so that what was read stays as it is and a block
+ * or a macro can be used again.
  */
 export class Expansion {
   readonly files: FileSource;

@@ -21,8 +21,8 @@ export interface XacroExpanded {
 }
 
 /**
- * The URDF that a xacro stands for. Pure: what it names is asked of `files`, nothing else is opened; there are no environment
- * variables. Work, depth and size are bounded, so that every file ends in a robot or in a sentence.
+ * The URDF that a xacro stands for. Pure: what it names is asked of `files`, nothing else is opened; there are no
+ * environment variables. Work, depth and size are bounded, so that every file ends in a robot or in a sentence.
  */
 export function expandXacro(
   path: string,
@@ -36,7 +36,10 @@ export function expandXacro(
   });
 }
 
-/** A robot straight from a URDF or xacro; refusals name file and line of what was written by hand, not of what it became. */
+/**
+ * A robot straight from a URDF or xacro; refusals name file and line of what was written by hand, not of what it
+ * became.
+ */
 export function readRobot(path: string, files: FileSource, { args = {} }: XacroOptions = {}): UrdfRead | NotUnderstood {
   return answering(() => {
     const expansion = new Expansion(files, args);

@@ -23,7 +23,10 @@ interface Entry {
   beingRead?: boolean;
 }
 
-/** Properties, blocks and macros of one place: a file, a macro call, an included name space. What is not here is looked for outside. */
+/**
+ * Properties, blocks and macros of one place: a file, a macro call, an included name space. What is not here is looked
+ * for outside.
+ */
 export class Scope {
   readonly outer: Scope | undefined;
   readonly isNameSpace: boolean;

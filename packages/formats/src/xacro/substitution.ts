@@ -15,8 +15,9 @@ export interface NetworkEmulator {
 }
 
 /**
- * `arg`, `find`, `dirname`, `eval`, `optenv` with its default. There are no environment variables here: `env` is refused, so
- * that a file means the same everywhere. A package that is not at hand stays `package://name`, and only what is in it is missing.
+ * `arg`, `find`, `dirname`, `eval`, `optenv` with its default. There are no environment variables here: `env` is
+ * refused, so that a file means the same everywhere. A package that is not at hand stays `package://name`, and only
+ * what is in it is missing.
  */
 export function substitute(inside: string, around: NetworkEmulator): Value {
   const [command = "", ...words] = inside.trim().split(/\s+/);

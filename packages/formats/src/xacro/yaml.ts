@@ -16,8 +16,8 @@ const UNITS: Readonly<Record<string, number>> = {
 };
 
 /**
- * Reads a YAML file as configuration of a robot: numbers, texts, lists, dictionaries, and the tags `!degrees`, `!radians`,
- * `!millimeters`, `!meters`, `!inches`, `!foot`, which give radians and metres.
+ * Reads a YAML file as configuration of a robot: numbers, texts, lists, dictionaries, and the tags `!degrees`,
+ * `!radians`, `!millimeters`, `!meters`, `!inches`, `!foot`, which give radians and metres.
  *
  * @param amount  works out what stands behind such a tag: a number or an expression.
  */

@@ -31,7 +31,10 @@ export interface BasicWords {
   readonly mm: (value_m: number) => string;
 }
 
-/** Writes the steps of a program as a BASIC: blocks, loops, patterns and remarks; what instructions look like is the language's own affair. */
+/**
+ * Writes the steps of a program as a BASIC: blocks, loops, patterns and remarks; what instructions look like is the
+ * language's own affair.
+ */
 export abstract class BasicProgram extends BlockStepWriter {
   protected readonly names: Names;
   protected readonly words: BasicWords;
@@ -143,7 +146,10 @@ export abstract class BasicProgram extends BlockStepWriter {
     return this.asked(when, this.line(when.signal, step));
   }
 
-  /** A loop over layers, lines and places; the place changes with them. A pallet of the world is counted in the base of the robot, which turns its pitches. */
+  /**
+   * A loop over layers, lines and places; the place changes with them. A pallet of the world is counted in the base of
+   * the robot, which turns its pitches.
+   */
   private pallet(step: PalletStep): void {
     this.beforePattern(step);
     const {

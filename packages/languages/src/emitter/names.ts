@@ -44,5 +44,8 @@ export class Names {
   }
 }
 
-/** What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are dropped. */
+/**
+ * What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are
+ * dropped.
+ */
 export const remark = (name: string): string => asciiText(name).replace(/^[*=\-\s]+/, "");

@@ -61,8 +61,8 @@ export class Place {
   }
 
   /**
-   * The joint angles of a target: those that were taught, or the ones that reach the pose with least travel from `near`.
-   * Undefined for an arm without a solver.
+   * The joint angles of a target: those that were taught, or the ones that reach the pose with least travel from
+   * `near`. Undefined for an arm without a solver.
    *
    * @throws {UnsupportedStep} when the target is out of reach, or outside the limits of a joint.
    */
@@ -118,7 +118,10 @@ export class Place {
     }
   }
 
-  /** The radius at which a step is passed: given in metres, or as a share of the shorter half of both neighbouring paths. */
+  /**
+   * The radius at which a step is passed: given in metres, or as a share of the shorter half of both neighbouring
+   * paths.
+   */
   blend_m(step: MoveStep, before: MoveStep | undefined, next: Step | undefined): number {
     const { blend_ratio: ratio = 0 } = step;
     if (next?.type !== "move") return 0;

@@ -9,7 +9,10 @@ const UPRIGHT = "90";
 export const mmText = (value_m: number): string => fixed(millimetres(value_m), MM_DECIMALS);
 export const degText = (value_rad: number): string => fixed(degrees(value_rad), DEG_DECIMALS);
 
-/** Turns about the fixed x, y and z [°], R = Rz · Ry · Rx. Where the second is upright to the last digit, the first says nothing: it is 0. */
+/**
+ * Turns about the fixed x, y and z [°], R = Rz · Ry · Rx. Where the second is upright to the last digit, the first says
+ * nothing: it is 0.
+ */
 export function turnTexts(q: Pose["quaternion"]): readonly [aboutX: string, aboutY: string, aboutZ: string] {
   const [c, b, a] = toEulerAngles("zyx", q);
   const pitch = degText(b);

@@ -1,9 +1,9 @@
 import type { CallStep, Program, Step } from "@twincell/core";
 
 /**
- * The same program in routines of at most so many steps that are called one after the other, for controllers that hold no
- * longer ones. A list is cut only where the robot stands: behind a motion that is not passed, or behind what is none. Calls
- * carry the id of the first step that they lead to.
+ * The same program in routines of at most so many steps that are called one after the other, for controllers that hold
+ * no longer ones. A list is cut only where the robot stands: behind a motion that is not passed, or behind what is
+ * none. Calls carry the id of the first step that they lead to.
  *
  * @param most  steps of a list, without those inside its blocks. A list that cannot be cut stays longer.
  */

@@ -3,7 +3,9 @@ import { remark } from "./names.ts";
 import type { Place } from "./place.ts";
 import { BlockWriter } from "./text-writer.ts";
 
-/** Writes lists of steps with their names and groups as remarks: `== group` before its steps, the name before the step. */
+/**
+ * Writes lists of steps with their names and groups as remarks: `== group` before its steps, the name before the step.
+ */
 export abstract class StepWriter {
   protected readonly place: Place;
   /** Where the arm is before the next step, where that is known. */

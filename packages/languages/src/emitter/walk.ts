@@ -22,7 +22,9 @@ const LIMIT_SLACK_RAD = 1e-9;
 /** A pallet is looked at at every place up to this many. */
 const MOST_PLACES = 400;
 
-/** Where a program counts from while it is walked through: the world of the cell, seen from the world of the controller. */
+/**
+ * Where a program counts from while it is walked through: the world of the cell, seen from the world of the controller.
+ */
 export class WalkedPlace {
   readonly program: Program;
   readonly robot: Robot;
@@ -64,11 +66,12 @@ const MOST_STARTS = 8;
 const SAME_RAD = 1e-6;
 
 /**
- * Shows every move of a program in the order of execution: loops twice, since the second round begins where the first one
- * ends, pallets place by place, what follows a decision from both its ends, and routines that nobody calls behind
+ * Shows every move of a program in the order of execution: loops twice, since the second round begins where the first
+ * one ends, pallets place by place, what follows a decision from both its ends, and routines that nobody calls behind
  * everything else.
  *
- * @param visit  the posture that a move ends in when the arm starts from `near`, or what is wrong with it; the walk ends there.
+ * @param visit  the posture that a move ends in when the arm starts from `near`, or what is wrong with it; the walk
+ *   ends there.
  */
 export function walkMoves(
   place: WalkedPlace,
@@ -158,7 +161,10 @@ function distinct(starts: Starts): Starts {
   return found;
 }
 
-/** The joint angles in which a target of a step is reached from `near`: those that were taught on a joint move, otherwise those of least travel. */
+/**
+ * The joint angles in which a target of a step is reached from `near`: those that were taught on a joint move,
+ * otherwise those of least travel.
+ */
 export function reached(
   place: WalkedPlace,
   step: MoveStep,

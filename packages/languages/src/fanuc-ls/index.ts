@@ -19,7 +19,8 @@ export const fanucLs: Dialect = skippingDialect({
   extensions: [".ls"],
   maturity: "experimental",
   cannot: CANNOT,
-  // Whole percent, whole mm/s, hundredths of a second; angles and lengths in thousandths: six joints of a listing together move the tool by no more.
+  // Whole percent, whole mm/s, hundredths of a second; angles and lengths in thousandths: six joints of a listing
+  // together move the tool by no more.
   resolution: {
     ratio: 0.005,
     leastRatio: 0.01,

@@ -9,8 +9,9 @@ import { Machine } from "./run/machine.ts";
 const MOST_STEPS = 200_000;
 
 /**
- * Executes and reads one listing, or several one behind the other of which the first is started. Pallets are read from shifted
- * points. A program with jumps other than those of loops and decisions is executed with every input off and comes out as what it does.
+ * Executes and reads one listing, or several one behind the other of which the first is started. Pallets are read from
+ * shifted points. A program with jumps other than those of loops and decisions is executed with every input off and
+ * comes out as what it does.
  */
 export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader = blockEntryPoints({
   name: "FANUC TP",

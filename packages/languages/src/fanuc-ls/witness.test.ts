@@ -1,6 +1,6 @@
 /**
- * Listings written out by hand from the statements of TP, not by the emitter; and what they mean, worked out by hand from
- * those statements, not by the interpreter.
+ * Listings written out by hand from the statements of TP, not by the emitter; and what they mean, worked out by hand
+ * from those statements, not by the interpreter.
  */
 import { readFileSync } from "node:fs";
 import {

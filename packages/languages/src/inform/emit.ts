@@ -42,8 +42,8 @@ const MOST_STEPS = 3000;
 type Refusal = Extract<Emitted, { kind: "cannot" }>;
 
 /**
- * Jobs (.JBI), the main job first, with the tools and user frames whose numbers they mean; or the step that stands in the
- * way: never a part of a program.
+ * Jobs (.JBI), the main job first, with the tools and user frames whose numbers they mean; or the step that stands in
+ * the way: never a part of a program.
  *
  * @param pulses  write positions in pulses, by these numbers of the controller; left out, in X, Y, Z.
  */

@@ -9,7 +9,9 @@ import { EXAMPLE_PULSES, type PulseData } from "./robots.ts";
 export { EXAMPLE_PULSES, type PulseData } from "./robots.ts";
 
 export interface InformOptions {
-  /** Pulses per degree by robot id, from the parameter file of its controller. With them jobs in pulses are understood. */
+  /**
+   * Pulses per degree by robot id, from the parameter file of its controller. With them jobs in pulses are understood.
+   */
   readonly pulses?: Readonly<Record<string, PulseData>>;
   /** How positions are written: in X, Y, Z, or in pulses, which is refused for a robot without `pulses`. */
   readonly positions?: "rectan" | "pulse";

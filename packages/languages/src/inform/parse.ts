@@ -6,7 +6,8 @@ import type { PulseData } from "./robots.ts";
 
 /**
  * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed
- * and its motions are written down, so loops, calls and shifts come out as what they do, and decisions by inputs as decisions.
+ * and its motions are written down, so loops, calls and shifts come out as what they do, and decisions by inputs as
+ * decisions.
  */
 export function parseInform(
   text: string,

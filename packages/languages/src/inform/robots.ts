@@ -18,8 +18,8 @@ export const axisConvention = (robot: Robot): AxisConvention | undefined =>
   Object.hasOwn(CONVENTIONS, robot.id) ? CONVENTIONS[robot.id] : undefined;
 
 /**
- * Encoder pulses per degree of each axis, S first, as the controller's own parameters give them: data of one robot, which
- * nobody can work out from its name.
+ * Encoder pulses per degree of each axis, S first, as the controller's own parameters give them: data of one robot,
+ * which nobody can work out from its name.
  */
 export interface PulseData {
   readonly pulsesPerDegree: readonly number[];

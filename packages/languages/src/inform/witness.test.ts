@@ -1,6 +1,6 @@
 /**
- * Jobs written out by hand from the data transmission manual and from the instructions of INFORM, not by the emitter; and
- * what they mean, worked out by hand, not by the interpreter.
+ * Jobs written out by hand from the data transmission manual and from the instructions of INFORM, not by the emitter;
+ * and what they mean, worked out by hand, not by the interpreter.
  */
 import { readFileSync } from "node:fs";
 import {

@@ -4,7 +4,10 @@ import { CANNOT, emitAs } from "./emit.ts";
 import { interpretAs, parseAs } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
-/** AS of Kawasaki's D, E and F controllers. Half of what is known of it is recalled: docs/languages/kawasaki-as.md says which. */
+/**
+ * AS of Kawasaki's D, E and F controllers. Half of what is known of it is recalled: docs/languages/kawasaki-as.md says
+ * which.
+ */
 export const kawasakiAs: Dialect = skippingDialect({
   id: "kawasaki-as",
   brand: "Kawasaki",

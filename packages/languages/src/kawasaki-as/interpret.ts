@@ -2,7 +2,10 @@ import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksAs } from "./run/machine.ts";
 
-/** Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
+/**
+ * Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the
+ * text's own lists.
+ */
 export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockEntryPoints({
   name: "AS",
   speaks: speaksAs,

@@ -7,8 +7,8 @@ export interface SupportedRobot {
 }
 
 /**
- * Robots whose controllers speak AS. Joint angles are those of the library in degrees: the maker's own driver sends the values of
- * its URDF to the controller as they are.
+ * Robots whose controllers speak AS. Joint angles are those of the library in degrees: the maker's own driver sends the
+ * values of its URDF to the controller as they are.
  */
 const SPOKEN: Readonly<Record<string, SupportedRobot>> = {
   kawasaki_rs007l: { upWrist: "negative" },

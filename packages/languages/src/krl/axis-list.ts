@@ -10,9 +10,9 @@ const DIGITS = 6;
 const PERCENT = 100;
 
 /**
- * The list of axis positions of the KUKA teaching system (rows M-50 … M-53): speeds and accelerations of all axes, then one
- * PTP with inline axis values per step. It is a format of its own: it holds joint motions to taught joint angles, and a
- * program with anything else is refused.
+ * The list of axis positions of the KUKA teaching system (rows M-50 … M-53): speeds and accelerations of all axes, then
+ * one PTP with inline axis values per step. It is a format of its own: it holds joint motions to taught joint angles,
+ * and a program with anything else is refused.
  */
 export function emitPtpAxis(program: Program, robot: Robot): Emitted {
   const convention = axisConvention(robot);

@@ -9,8 +9,8 @@ import { LINES } from "./lines.ts";
 export { loadPoses, savePoses, type LoadedPoses, type SavedPose } from "./poses.ts";
 
 /**
- * The neutral pose list, in words after the Industrial Robot Language (DIN 66312). The grammar is ours (docs/languages/l-irl.md):
- * that of L-IRL is not public, and no controller has been shown this text.
+ * The neutral pose list, in words after the Industrial Robot Language (DIN 66312). The grammar is ours
+ * (docs/languages/l-irl.md): that of L-IRL is not public, and no controller has been shown this text.
  */
 export const poseList: Dialect = skippingDialect(
   {

@@ -7,7 +7,9 @@ import type { PoseList } from "./read/pose-list.ts";
 /** Share of the full speed at which poses are visited of which the list says only where they are. */
 const VISITING_RATIO = 0.2;
 
-/** The program of a list. A list without motions is a list of places: each pose becomes a straight move, in their order. */
+/**
+ * The program of a list. A list without motions is a list of places: each pose becomes a straight move, in their order.
+ */
 export function parsePoseList(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
   const read = readPoseList(text, robot, worldFromBase);
   if (read.kind === "not-understood") return read;

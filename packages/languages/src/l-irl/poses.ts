@@ -12,7 +12,10 @@ export type LoadedPoses =
   | { readonly kind: "poses"; readonly poses: readonly SavedPose[] }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-/** Named poses as a list, counted from the world. Names may hold every character but the ends of lines, which become blanks. */
+/**
+ * Named poses as a list, counted from the world. Names may hold every character but the ends of lines, which become
+ * blanks.
+ */
 export const savePoses = (poses: readonly SavedPose[]): string =>
   [
     headerLine("WORLD"),
@@ -23,7 +26,10 @@ export const savePoses = (poses: readonly SavedPose[]): string =>
     .map(line => `${line}\n`)
     .join("");
 
-/** The named poses of any list, rows without a name as P1, P2 and so on; its motions are passed over. `worldFromBase` counts for lists from the BASE. */
+/**
+ * The named poses of any list, rows without a name as P1, P2 and so on; its motions are passed over. `worldFromBase`
+ * counts for lists from the BASE.
+ */
 export function loadPoses(text: string, worldFromBase: Pose<"world", "base"> = identity()): LoadedPoses {
   const read = readPoseList(text, undefined, worldFromBase);
   if (read.kind === "not-understood") return read;

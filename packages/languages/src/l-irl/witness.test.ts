@@ -1,4 +1,7 @@
-/** Lists written out by hand from docs/languages/l-irl.md, and what they mean, worked out by hand; neither is of the emitter. */
+/**
+ * Lists written out by hand from docs/languages/l-irl.md, and what they mean, worked out by hand; neither is of the
+ * emitter.
+ */
 import {
   LIBRARY,
   angleBetween,
@@ -61,7 +64,8 @@ describe("L-37 the parser", () => {
     expect(program.name).toBe('Two "points"');
     expect(program.groups).toEqual({ g1: { name: "Edge 1" } });
     expect(program.tools.torch).toEqual(pose([0, 0, 0.12]));
-    // The base is turned by a quarter about z and stands at x = 1: (0.8, 0, 0.1) → (1, 0.8, 0.1), and the frame turns once more.
+    // The base is turned by a quarter about z and stands at x = 1: (0.8, 0, 0.1) → (1, 0.8, 0.1), and the frame turns
+    // once more.
     near(program.frames.carton!, [1, 0.8, 0.1], [0, 0, 1, 0]);
     expect(program.steps.map(({ type }) => type)).toEqual(["comment", "move", "move", "move", "gripper", "wait"]);
     expect(program.steps[1]).toMatchObject({

@@ -17,7 +17,10 @@ export const CANNOT: Dialect["cannot"] = [
   { what: "read-analogue", because: "Analogue lines are an option of the controller." },
 ];
 
-/** One file with the program, its routines and its positions, or the step that stands in the way: never a part of a program. */
+/**
+ * One file with the program, its routines and its positions, or the step that stands in the way: never a part of a
+ * program.
+ */
 export const emitMelfa = emitterOf({
   language: "MELFA-BASIC",
   spokenBy: supportedBy,

@@ -4,7 +4,10 @@ import { CANNOT, emitMelfa } from "./emit.ts";
 import { interpretMelfa, parseMelfa } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
-/** MELFA-BASIC V and VI of Mitsubishi's controllers. docs/languages/melfa-basic.md says what is known of it, and from where. */
+/**
+ * MELFA-BASIC V and VI of Mitsubishi's controllers. docs/languages/melfa-basic.md says what is known of it, and from
+ * where.
+ */
 export const melfaBasic: Dialect = skippingDialect({
   id: "melfa-basic",
   brand: "Mitsubishi",

@@ -5,7 +5,10 @@ export interface SupportedRobot {
   /** The sign of the library's wrist that is not flipped. */
   readonly nonFlip: "positive" | "negative";
 }
-/** Robots whose controllers speak MELFA-BASIC. Joint angles are those of the library in degrees: its zeros are the maker's. */
+/**
+ * Robots whose controllers speak MELFA-BASIC. Joint angles are those of the library in degrees: its zeros are the
+ * maker's.
+ */
 const SPOKEN: Readonly<Record<string, SupportedRobot>> = { mitsubishi_rv7fl: { nonFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak MELFA-BASIC. */

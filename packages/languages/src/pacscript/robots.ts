@@ -5,7 +5,10 @@ export interface SupportedRobot {
   /** The sign of the library's wrist that is not flipped. */
   readonly nonFlip: "positive" | "negative";
 }
-/** Robots whose controllers speak PacScript. Joint angles are those of the library in degrees: the maker's own driver sends those of its URDF. */
+/**
+ * Robots whose controllers speak PacScript. Joint angles are those of the library in degrees: the maker's own driver
+ * sends those of its URDF.
+ */
 const SPOKEN: Readonly<Record<string, SupportedRobot>> = { denso_vs060: { nonFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak PacScript. */

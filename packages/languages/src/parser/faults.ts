@@ -5,7 +5,10 @@ export function textFault(at: TextPlace, expected: string, sentence: string): Te
   return { line: at.line, column: at.column, expected, sentence };
 }
 
-/** Ends the reading of a line, or the execution of a text, at a place. Caught at the door of the dialect that threw it, or by who runs the text. */
+/**
+ * Ends the reading of a line, or the execution of a text, at a place. Caught at the door of the dialect that threw it,
+ * or by who runs the text.
+ */
 export class TextError extends Fault {
   readonly code = "language.text";
   readonly hint: string;

@@ -3,8 +3,8 @@ import { falseIdentity, type Dialect, type Robot } from "@twincell/core";
 const HINT = "A robot's conventions are known by its kinematics, not by its name: give the file of the robot itself.";
 
 /**
- * The language with a door before it: a robot that carries the id of one of the library without being it is refused with both
- * sets of numbers, for its joint signs, zeros and configurations would be those of another arm.
+ * The language with a door before it: a robot that carries the id of one of the library without being it is refused
+ * with both sets of numbers, for its joint signs, zeros and configurations would be those of another arm.
  */
 export function withIdentity<D extends Dialect>(dialect: D): D {
   const fault = (robot: Robot) => {

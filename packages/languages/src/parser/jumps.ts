@@ -2,7 +2,9 @@ import type { TextPlace } from "@twincell/core";
 import { TextError } from "./faults.ts";
 import type { LineCursor } from "./line-cursor.ts";
 
-/** A program as a list of statements and jumps; `to` is an index into the list, -1 only while the list is being made. */
+/**
+ * A program as a list of statements and jumps; `to` is an index into the list, -1 only while the list is being made.
+ */
 export type JumpInstruction<Expression, Variable extends Expression, Statement> =
   | { readonly kind: "statement"; readonly statement: Statement }
   | { readonly kind: "jump"; to: number; readonly at: TextPlace }
@@ -70,7 +72,10 @@ export abstract class JumpBuilder<
   /** One line of the body. @throws {TextError} */
   abstract line(cursor: Cursor): void;
 
-  /** Gives every jump its place. @throws {TextError} for a block without its end, or a GOTO to a label that is not there. */
+  /**
+   * Gives every jump its place. @throws {TextError} for a block without its end, or a GOTO to a label that is not
+   * there.
+   */
   protected close(end: TextPlace): void {
     const block = this.open.at(-1);
     if (block !== undefined)

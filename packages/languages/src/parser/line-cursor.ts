@@ -22,7 +22,9 @@ export class LineCursor<Kind extends string> {
   private readonly called: string;
   private at = 0;
 
-  /** @throws {TextError} at a character that has no meaning in the language, or when the line is too long for anybody. */
+  /**
+   * @throws {TextError} at a character that has no meaning in the language, or when the line is too long for anybody.
+   */
   constructor(text: string, line: number, { tokens, longest, called }: LineRules<Kind>) {
     if (text.length > longest)
       throw new TextError(

@@ -1,4 +1,6 @@
-/** The lines of a text, whichever of CR LF, LF and CR ends them. A line end at the end of the text starts no new line. */
+/**
+ * The lines of a text, whichever of CR LF, LF and CR ends them. A line end at the end of the text starts no new line.
+ */
 export function textLines(text: string): string[] {
   const lines = text.split(/\r\n|\n|\r/);
   if (lines.at(-1) === "") lines.pop();

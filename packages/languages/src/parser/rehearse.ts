@@ -8,7 +8,8 @@ const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 /**
  * Runs a program beforehand, so that its tools, frames and faults are met before a robot moves.
  *
- * @returns the fault it ran into, or undefined; what hangs on a line from outside shows only when the program runs. What else is
+ * @returns the fault it ran into, or undefined; what hangs on a line from outside shows only when the program runs.
+ *   What else is
  *          thrown goes on to the caller.
  */
 export function dryRun(run: Iterable<Executed>): TextFault | undefined {

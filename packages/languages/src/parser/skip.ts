@@ -7,9 +7,9 @@ import { withIdentity } from "./identity.ts";
 const MOST_READINGS = 400;
 
 /**
- * The dialect with a reader that leaves out what it does not understand when it is asked to: line by line, a block with all
- * that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The fault of a
- * text that is no program at all, or that stays when its line is left out, remains.
+ * The dialect with a reader that leaves out what it does not understand when it is asked to: line by line, a block with
+ * all that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The
+ * fault of a text that is no program at all, or that stays when its line is left out, remains.
  */
 export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boolean): Dialect {
   const dialect = withIdentity(given);

@@ -18,8 +18,8 @@ export interface Unrolled {
 }
 
 /**
- * Executes a program with its motions written down, so that loops, calls and shifts come out as what they do, and decisions by
- * inputs as decisions.
+ * Executes a program with its motions written down, so that loops, calls and shifts come out as what they do, and
+ * decisions by inputs as decisions.
  *
  * @param kinds  the lines of the controller, by name; filled while the program is executed.
  */
@@ -44,8 +44,8 @@ export function unrolled(
 }
 
 /**
- * What a comment says: a name of the step behind it, a remark of its own, a heading over the steps up to the next one, or a
- * fold around steps. A heading or a fold without a name holds nothing together.
+ * What a comment says: a name of the step behind it, a remark of its own, a heading over the steps up to the next one,
+ * or a fold around steps. A heading or a fold without a name holds nothing together.
  */
 export type Comment =
   | { readonly kind: "name" | "remark" | "heading" | "fold"; readonly text: string }

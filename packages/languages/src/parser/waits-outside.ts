@@ -1,6 +1,9 @@
 import { Fault, type TextPlace } from "@twincell/core";
 
-/** A program that goes round without a motion until a line from outside changes: it shows only when it runs beside such lines. */
+/**
+ * A program that goes round without a motion until a line from outside changes: it shows only when it runs beside such
+ * lines.
+ */
 export class WaitsOutside extends Fault {
   readonly code = "language.waits-outside";
   readonly hint: string;

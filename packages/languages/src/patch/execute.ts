@@ -41,8 +41,8 @@ const MAX_STEPS = 20_000;
 const MAX_IDLE = 200_000;
 
 /**
- * Carries a text out with its vendor's conventions and writes down what it does, so that it is planned, checked and played as a
- * taught program is. The text decides by `inputs`; nothing of it is converted for keeping.
+ * Carries a text out with its vendor's conventions and writes down what it does, so that it is planned, checked and
+ * played as a taught program is. The text decides by `inputs`; nothing of it is converted for keeping.
  */
 export function executeText(
   dialect: Pick<Dialect, "interpret">,

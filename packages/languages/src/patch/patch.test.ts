@@ -285,7 +285,10 @@ test("the file that is run is the one no other file calls; its data list comes r
   expect(joined.joined(3, 1)).toBeUndefined();
 });
 
-/** A PTP behind a touched-up point may be told by joint angles, for its turns are reached from elsewhere; it goes to the same place. */
+/**
+ * A PTP behind a touched-up point may be told by joint angles, for its turns are reached from elsewhere; it goes to the
+ * same place.
+ */
 function expectUnmoved(
   step: MoveStep,
   program: Program,
@@ -308,7 +311,10 @@ function pick<T>(list: readonly T[], random: Random): readonly [T, number] {
   const at = Math.floor(random() * list.length);
   return [list[at]!, at];
 }
-/** Whether a motion names another point after this one on its line, or goes on in the next line: it is the via point of an arc. */
+/**
+ * Whether a motion names another point after this one on its line, or goes on in the next line: it is the via point of
+ * an arc.
+ */
 function isVia({ language, files }: Case, file: number, at: number): boolean {
   const line = /^[^\r\n]*/.exec(files[file]!.text.slice(files[file]!.text.lastIndexOf("\n", at) + 1))![0];
   return language === "fanuc-ls" ? /^\s*\d*:C /.test(line) : /\b(CIRC|MoveC|movec)\b/i.test(line);

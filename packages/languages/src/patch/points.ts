@@ -151,8 +151,9 @@ export function argumentsIn(
 }
 
 /**
- * Brings values and motions together. A name means the value in the same file or in its sibling of the same base name (a
- * module's .src and .dat), else one of another file. A name that is given several values in one module cannot be touched up.
+ * Brings values and motions together. A name means the value in the same file or in its sibling of the same base name
+ * (a module's .src and .dat), else one of another file. A name that is given several values in one module cannot be
+ * touched up.
  */
 export function together(files: readonly PatchFile[], defined: readonly Defined[], used: readonly Used[]): TextPoint[] {
   const module = files.map(file =>

@@ -28,8 +28,8 @@ const speaks = (dialect: Pick<Dialect, "extensions">, name: string): boolean =>
 const DATA = new Set([".dat", ".sys", ".dtx", ".pts", ".va"]);
 
 /**
- * The file that is run: of those with statements the one whose name no other mentions, the first of several. Undefined when
- * none is of the language.
+ * The file that is run: of those with statements the one whose name no other mentions, the first of several. Undefined
+ * when none is of the language.
  */
 export function mainOf(dialect: Pick<Dialect, "extensions">, files: readonly PatchFile[]): PatchFile | undefined {
   const programs = files.filter(file => speaks(dialect, file.name) && !DATA.has(endingOf(file.name)));
@@ -40,7 +40,10 @@ export function mainOf(dialect: Pick<Dialect, "extensions">, files: readonly Pat
   return programs.find(file => !called(file)) ?? programs[0];
 }
 
-/** The main file, its own data list behind it, then the other files of the language in their order: what is loaded together. */
+/**
+ * The main file, its own data list behind it, then the other files of the language in their order: what is loaded
+ * together.
+ */
 export function joinFiles(dialect: Pick<Dialect, "extensions">, files: readonly PatchFile[], main: string): JoinedText {
   const rank = (file: PatchFile): number =>
     file.name === main ? 0 : baseOf(file.name) === baseOf(main) ? 1 : DATA.has(endingOf(file.name)) ? 3 : 2;

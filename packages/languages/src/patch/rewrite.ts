@@ -12,9 +12,9 @@ export interface TextEdit {
 const MIN_DECIMALS = { millimetres: 3, fraction: 6 } as const;
 
 /**
- * The edits that give a point new numbers. Fields that the point does not have are not added; a number that says the same
- * to its own last digit is left as it stands. Decimals are kept and never fewer than a touch-up needs; a field set flush right
- * keeps its width; a binary status stays binary.
+ * The edits that give a point new numbers. Fields that the point does not have are not added; a number that says the
+ * same to its own last digit is left as it stands. Decimals are kept and never fewer than a touch-up needs; a field set
+ * flush right keeps its width; a binary status stays binary.
  *
  * @param values  by key of the fields, as the language's emitter writes them.
  * @param fine  whether lengths are metres and angles radians or parts of a quaternion.

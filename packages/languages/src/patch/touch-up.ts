@@ -43,9 +43,9 @@ interface Written {
 }
 
 /**
- * Rewrites one point so that the robot stands at `q_rad` there: its numbers in the tool and frame of the motion that was looked
- * at, its status and turns of that configuration, and nothing else of the text. The numbers are those that the language's own
- * emitter writes; external axes stay.
+ * Rewrites one point so that the robot stands at `q_rad` there: its numbers in the tool and frame of the motion that
+ * was looked at, its status and turns of that configuration, and nothing else of the text. The numbers are those that
+ * the language's own emitter writes; external axes stay.
  *
  * @param move  the motion as the text was executed, with the tools and frames of that moment.
  */
@@ -158,7 +158,10 @@ function targetAt(
   };
 }
 
-/** A program of that one motion, by the language's emitter, for a robot that stands there already: so turns are those of `q_rad`. */
+/**
+ * A program of that one motion, by the language's emitter, for a robot that stands there already: so turns are those of
+ * `q_rad`.
+ */
 function emitted(
   dialect: Dialect,
   path: "ptp" | "lin",

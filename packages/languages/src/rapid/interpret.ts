@@ -2,7 +2,10 @@ import { blockEntryPoints, changedNames, routineScript, type BlockReader } from 
 import { readSource } from "./read/grammar.ts";
 import { Machine } from "./run/machine.ts";
 
-/** Robots whose controllers speak RAPID. Their joint angles are those of the library: none is coupled, turned round or counted from elsewhere. */
+/**
+ * Robots whose controllers speak RAPID. Their joint angles are those of the library: none is coupled, turned round or
+ * counted from elsewhere.
+ */
 const SPEAKS: ReadonlySet<string> = new Set(["abb_irb120", "abb_crb15000_5_95"]);
 
 /** Executes and reads RAPID: PROC main, or the only routine of the text. */

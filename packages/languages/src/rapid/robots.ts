@@ -1,8 +1,8 @@
 import type { Robot } from "@twincell/core";
 
 /**
- * How RAPID names the posture of a robot: `cfx` for an arm with a spherical wrist, or quarters of three axes alone where
- * nobody has said what cfx means. Joint angles are those of the library in degrees, the base is the root link.
+ * How RAPID names the posture of a robot: `cfx` for an arm with a spherical wrist, or quarters of three axes alone
+ * where nobody has said what cfx means. Joint angles are those of the library in degrees, the base is the root link.
  */
 export interface Configuration {
   readonly hasCfx: boolean;

@@ -1,4 +1,6 @@
-/** A module as a person would write it by the statements of RAPID: the emitter writes the same; and what RAPID refuses. */
+/**
+ * A module as a person would write it by the statements of RAPID: the emitter writes the same; and what RAPID refuses.
+ */
 import { emptyProgram, pose, radians, robotById, type MoveStep, type Program, type Step } from "@twincell/core";
 import { expect, test } from "vitest";
 import { proveText, runnableFile } from "../prove.ts";

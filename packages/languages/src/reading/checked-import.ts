@@ -29,9 +29,9 @@ export interface CheckedReader {
 }
 
 /**
- * Reads a text as steps and compares them with interpreting the same text. Steps that do something else are never returned:
- * what the text does is written out instead, with decisions where inputs are asked, and compared again; where that
- * is not possible the text is refused with the line and both values.
+ * Reads a text as steps and compares them with interpreting the same text. Steps that do something else are never
+ * returned: what the text does is written out instead, with decisions where inputs are asked, and compared again; where
+ * that is not possible the text is refused with the line and both values.
  */
 export function checkedImport(
   reader: CheckedReader,

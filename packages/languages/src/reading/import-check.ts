@@ -50,9 +50,10 @@ export interface ImportCheck {
 type Ready = Extract<Interpreted, { kind: "ready" }>;
 
 /**
- * Executes an imported program and the text that it was made of side by side and compares every motion, output and wait in
- * their order: with all inputs off, all on, drawn by chance from a fixed seed, and then answer by answer turned round, so that
- * with few questions every way through the text is taken. The work is bounded by counts of steps and lines.
+ * Executes an imported program and the text that it was made of side by side and compares every motion, output and wait
+ * in their order: with all inputs off, all on, drawn by chance from a fixed seed, and then answer by answer turned
+ * round, so that with few questions every way through the text is taken. The work is bounded by counts of steps and
+ * lines.
  *
  * @param waits  ids of steps that wait where the text goes round until an input changes.
  */
@@ -90,7 +91,8 @@ export function checkImport(
     if (differs !== undefined) return answer(differs);
     if (steps >= STEPS_OF_ALL) return answer(undefined);
   }
-  // Answer after answer is turned round, those of the fewest turns first: with few questions every way through the text.
+  // Answer after answer is turned round, those of the fewest turns first: with few questions every way through the
+  // text.
   const ways: Way[] = [{ turned: new Set(), from: 0, asked: off.asked }];
   for (let next = 0; next < ways.length; next++) {
     const { turned, from, asked } = ways[next]!;

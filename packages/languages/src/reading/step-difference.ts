@@ -211,8 +211,8 @@ function deviationAtEnd(
   const a = wanted.target;
   const b = done.target;
   if ("q" in a && "q" in b) {
-    // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.
-    // Along a path the axes arrive in the turn that is nearest, whatever turn was taught.
+    // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that
+    // counts. Along a path the axes arrive in the turn that is nearest, whatever turn was taught.
     const apart = Math.max(
       ...a.q.map((angle, i) => Math.abs(wanted.path === "ptp" ? angle - b.q[i]! : wrapAngle(angle - b.q[i]!))),
     );

@@ -4,8 +4,8 @@ import type { Condition, SignalLine, Signals } from "@twincell/core";
 export type InputLevel = (signal: string, afterSteps: number) => boolean | number;
 
 /**
- * Inputs of one trial: the level of a line hangs on its name and on how many steps were executed, so that a text and the
- * steps made of it are told the same however often either of them asks. Outputs read as they were last written.
+ * Inputs of one trial: the level of a line hangs on its name and on how many steps were executed, so that a text and
+ * the steps made of it are told the same however often either of them asks. Outputs read as they were last written.
  */
 export class TrialInputs implements Signals {
   /** Steps executed so far. */
@@ -38,7 +38,9 @@ export const inputKey = (signal: string, afterSteps: number): string => `${after
 const FAR = 1e6;
 const NEAR = 1e-3;
 
-/** What an analogue line may say so that each condition is met and missed: far off, and to both sides of every limit. */
+/**
+ * What an analogue line may say so that each condition is met and missed: far off, and to both sides of every limit.
+ */
 export function analogueLevels(conditions: Iterable<Condition>): ReadonlyMap<string, readonly number[]> {
   const levels = new Map<string, number[]>();
   for (const condition of conditions) {

@@ -42,12 +42,13 @@ type TraceEvent =
   | { readonly kind: "waits"; readonly key: string; readonly line: number };
 
 /**
- * Executes a text and writes down what it does as steps: loops and calls as what they amount to, and a decision where an
- * input was asked and the answer makes a difference. Each answer is turned round once; what is done alike behind both
- * answers stands behind the decision. Where one decision changes what a later one does, `merged: false` keeps all that
- * follows inside each branch.
+ * Executes a text and writes down what it does as steps: loops and calls as what they amount to, and a decision where
+ * an input was asked and the answer makes a difference. Each answer is turned round once; what is done alike behind
+ * both answers stands behind the decision. Where one decision changes what a later one does, `merged: false` keeps all
+ * that follows inside each branch.
  *
- * @returns why not, with a line, where the text does not end, decides by levels, or branches more than the bounds allow.
+ * @returns why not, with a line, where the text does not end, decides by levels, or branches more than the bounds
+ *   allow.
  */
 export function writtenOut(
   run: (signals: Signals) => Iterator<Executed, unknown>,
@@ -156,7 +157,10 @@ class Writer {
     return events;
   }
 
-  /** Both branches of a decision without the events that they end with alike; undefined where these hang on decisions inside. */
+  /**
+   * Both branches of a decision without the events that they end with alike; undefined where these hang on decisions
+   * inside.
+   */
   private branches(
     trace: Trace,
     turned: Trace,

@@ -18,7 +18,9 @@ export const CANNOT: Dialect["cannot"] = [
   { what: "read-analogue", because: "Analogue lines are an option of the controller." },
 ];
 
-/** One file with `main` and the functions that it calls, or the step that stands in the way: never a part of a program. */
+/**
+ * One file with `main` and the functions that it calls, or the step that stands in the way: never a part of a program.
+ */
 export const emitSpel = emitterOf({
   language: "SPEL+",
   spokenBy: supportedBy,

@@ -4,7 +4,10 @@ import { CANNOT, emitSpel } from "./emit.ts";
 import { interpretSpel, parseSpel } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
-/** SPEL+ of Epson's RC controllers, on arms with six axes. docs/languages/spel.md says what is known of it, and from where. */
+/**
+ * SPEL+ of Epson's RC controllers, on arms with six axes. docs/languages/spel.md says what is known of it, and from
+ * where.
+ */
 export const spel: Dialect = skippingDialect({
   id: "spel",
   brand: "Epson",

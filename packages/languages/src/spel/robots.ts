@@ -5,7 +5,9 @@ export interface SupportedRobot {
   /** The sign of the library's wrist that is called NoFlip. */
   readonly noFlip: "positive" | "negative";
 }
-/** Robots whose controllers speak SPEL+. Joint angles are those of the library in degrees: its zeros are the maker's. */
+/**
+ * Robots whose controllers speak SPEL+. Joint angles are those of the library in degrees: its zeros are the maker's.
+ */
 const SPOKEN: Readonly<Record<string, SupportedRobot>> = { epson_c4_a601s: { noFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak SPEL+. */

@@ -1,7 +1,10 @@
 /** Changes of the numbers in a list, for faults that are put into a text on purpose. */
 export type Change = (list: string[]) => string[];
 
-/** Changes the numbers of the first list that matches: what is before it, the list, and what is behind it are the three groups. */
+/**
+ * Changes the numbers of the first list that matches: what is before it, the list, and what is behind it are the three
+ * groups.
+ */
 export const listIn =
   (matching: RegExp) =>
   (change: Change) =>

@@ -1,6 +1,8 @@
 import { seededRandom, type Random } from "@twincell/core";
 
-/** A program with control flow before it is text of any language: one variable n, two inputs, one output, one routine. */
+/**
+ * A program with control flow before it is text of any language: one variable n, two inputs, one output, one routine.
+ */
 export type FlowStatement =
   | { readonly kind: "move"; readonly to: number }
   | { readonly kind: "output"; readonly on: boolean }

@@ -21,7 +21,10 @@ export interface DialectBench {
   readonly worldFromBase: Pose<"world", "base">;
   /** Paths that the dialect does not declare under `cannot`. */
   readonly paths: readonly MoveStep["path"][];
-  /** The dialect says everything that it does not list under `cannot`: random programs have signals, loops, decisions, calls and pallets as well. */
+  /**
+   * The dialect says everything that it does not list under `cannot`: random programs have signals, loops, decisions,
+   * calls and pallets as well.
+   */
   readonly structured?: boolean;
   /** Lines by the names and numbers that the language has. */
   readonly signals?: Program["signals"];

@@ -12,7 +12,10 @@ import { describe, expect, test } from "vitest";
 import { runnableFile } from "../prove.ts";
 import type { DialectBench } from "./describe-dialect.ts";
 
-/** Statements that no reader of the language understands: a plain one, a motion, and a block with a motion of the program inside. */
+/**
+ * Statements that no reader of the language understands: a plain one, a motion, and a block with a motion of the
+ * program inside.
+ */
 export interface Unknown {
   readonly statement: string;
   readonly motion: string;

@@ -1,6 +1,6 @@
 /*
- * Programs as people keep them: inline forms with folds, odd spacing, comments with umlauts and kanji, points that several
- * motions share, fields in any order, external axes. Written by hand, not by an emitter.
+ * Programs as people keep them: inline forms with folds, odd spacing, comments with umlauts and kanji, points that
+ * several motions share, fields in any order, external axes. Written by hand, not by an emitter.
  */
 import type { PatchFile } from "../patch/index.ts";
 

@@ -35,7 +35,10 @@ const plain = (step: Step): string =>
     (_key, value: unknown) => (typeof value === "number" ? Number(value.toPrecision(9)) : value),
   );
 
-/** Where a program and its text, told the same, do not do the same; undefined where they do. Written apart from the check of imports. */
+/**
+ * Where a program and its text, told the same, do not do the same; undefined where they do. Written apart from the
+ * check of imports.
+ */
 export function disagreement(
   dialect: Dialect,
   text: string,

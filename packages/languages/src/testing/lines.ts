@@ -47,6 +47,8 @@ const LINES: Readonly<Record<string, Program["signals"]>> = {
 /** Lines that random programs in that dialect may use. */
 export const linesOf = (dialect: string): Program["signals"] => LINES[dialect] ?? SIGNALS;
 
-/** Whether the language can ask for a posture of that robot by its name: nobody has published the names of this one's. */
+/**
+ * Whether the language can ask for a posture of that robot by its name: nobody has published the names of this one's.
+ */
 export const namesConfigurations = (dialect: string, robot: Robot): boolean =>
   !(dialect === "rapid" && robot.id === "abb_crb15000_5_95");

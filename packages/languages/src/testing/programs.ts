@@ -51,8 +51,8 @@ export const SIGNALS: Program["signals"] = {
 };
 
 /**
- * A program whose every point the robot reaches: random postures, taught as joint angles or as poses of a tool in a frame.
- * Whatever the language can say beside points is mixed in: signals, loops, decisions, calls, pallets, comments.
+ * A program whose every point the robot reaches: random postures, taught as joint angles or as poses of a tool in a
+ * frame. Whatever the language can say beside points is mixed in: signals, loops, decisions, calls, pallets, comments.
  */
 export function randomProgram(robot: Robot, choices: ProgramChoices): Program {
   const random = seededRandom(choices.seed);
@@ -351,7 +351,10 @@ const OTHERS = [
 ] as const satisfies readonly Capability[];
 const DEEPEST = 2;
 
-/** Joint angles a little inside the limits, with the arm not stretched: the text's resolution must not push them out of reach. */
+/**
+ * Joint angles a little inside the limits, with the arm not stretched: the text's resolution must not push them out of
+ * reach.
+ */
 function easyConfiguration(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
   for (;;) {
     const q = robot.arm.joints.map(

@@ -4,8 +4,8 @@ import type { Dialect, Parsed, Robot } from "@twincell/core";
 const MOST_S = 2;
 
 /**
- * Reads a text up to three times, until one reading stays within two seconds of this thread's own work: what else the machine
- * does, and what the other threads of this process collect, is not the reader's.
+ * Reads a text up to three times, until one reading stays within two seconds of this thread's own work: what else the
+ * machine does, and what the other threads of this process collect, is not the reader's.
  *
  * @returns what was read, and the shortest time [s]
  */

@@ -1,4 +1,7 @@
-/** A strict grammar of TP listings, written from the facts of the language; it has seen neither the writer nor the reader. */
+/**
+ * A strict grammar of TP listings, written from the facts of the language; it has seen neither the writer nor the
+ * reader.
+ */
 const COMMENT = "(?::[^\\]\\r\\n]{1,16})?";
 const CONSTANT = "(?:[0-9]+(?:\\.[0-9]+)?|\\(-[0-9]+(?:\\.[0-9]+)?\\))";
 const REGISTER = `R\\[[1-9][0-9]*${COMMENT}\\]`;

@@ -1,6 +1,6 @@
 /**
- * A strict checker of URScript, written from the facts of the language alone: it has seen neither the writer nor the reader.
- * It knows far less than a controller takes, and nothing that a controller would refuse.
+ * A strict checker of URScript, written from the facts of the language alone: it has seen neither the writer nor the
+ * reader. It knows far less than a controller takes, and nothing that a controller would refuse.
  */
 const WORD = "[A-Za-z_][A-Za-z0-9_]*";
 const NUMBER = "(?:[0-9]+(?:\\.[0-9]+)?|\\.[0-9]+)";
@@ -128,7 +128,9 @@ function split(text: string): string[] {
   return parts;
 }
 
-/** Whether a text is one expression: operands and operators in turn, brackets closed, poses of six, names that exist. */
+/**
+ * Whether a text is one expression: operands and operators in turn, brackets closed, poses of six, names that exist.
+ */
 function expression(text: string, names: ReadonlySet<string>): boolean {
   const tokens: string[] = [];
   TOKEN.lastIndex = 0;

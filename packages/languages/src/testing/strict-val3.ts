@@ -1,6 +1,6 @@
 /**
- * A strict checker of VAL 3 applications, written from the facts of the language alone: it has seen neither the writer nor the
- * reader. It knows far less than a controller takes, and nothing that a controller would refuse.
+ * A strict checker of VAL 3 applications, written from the facts of the language alone: it has seen neither the writer
+ * nor the reader. It knows far less than a controller takes, and nothing that a controller would refuse.
  */
 export interface AppFile {
   readonly name: string;

@@ -13,7 +13,10 @@ import {
   type Step,
 } from "@twincell/core";
 
-/** Everything that is no plain move, as far as the language can say it: lines, loads, loops, decisions, calls, patterns and searches. */
+/**
+ * Everything that is no plain move, as far as the language can say it: lines, loads, loops, decisions, calls, patterns
+ * and searches.
+ */
 export function structuredProgram(
   robot: Robot,
   worldFromBase: Pose<"world", "base">,

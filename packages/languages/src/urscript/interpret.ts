@@ -3,7 +3,9 @@ import { readSource } from "./read/grammar.ts";
 import { keptThreads } from "./read/threads.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
 
-/** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
+/**
+ * Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script.
+ */
 export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader = blockEntryPoints({
   name: "URScript",
   speaks: speaksUrScript,

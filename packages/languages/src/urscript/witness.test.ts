@@ -1,6 +1,6 @@
 /**
- * Text written out by hand from the statements of URScript, not by the emitter; and what it means, worked out by hand from
- * those statements, not by the interpreter.
+ * Text written out by hand from the statements of URScript, not by the emitter; and what it means, worked out by hand
+ * from those statements, not by the interpreter.
  */
 import { readFileSync } from "node:fs";
 import {

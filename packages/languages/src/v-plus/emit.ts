@@ -29,7 +29,9 @@ export const CANNOT: readonly { readonly what: Capability; readonly because: str
 /** Whole numbers are exact in the controller's reals up to here. */
 const MAX_TIMES = 2 ** 24;
 
-/** The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program. */
+/**
+ * The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program.
+ */
 export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const convention = jointConvention(robot);
   if (convention === undefined) {

@@ -1,4 +1,7 @@
-/** Poses in V+ numbers that scipy, robodk and pinocchio worked out: neither the emitter nor the interpreter had a hand in them. */
+/**
+ * Poses in V+ numbers that scipy, robodk and pinocchio worked out: neither the emitter nor the interpreter had a hand
+ * in them.
+ */
 import { readFileSync } from "node:fs";
 import {
   angleBetween,
@@ -36,7 +39,10 @@ const robot = robotById("staubli_rx90l")!;
 /** A robot of unlimited reach that stands with its shoulder in the origin, for poses that no arm reaches. */
 const anywhere = { ...robot, baseFromVendorWorld: pose<"base", "vendor-world">() };
 
-/** Yaw, pitch and roll [deg] read off the matrix Rz(y)·Ry(p)·Rz(r): its last column is (cy sp, sy sp, cp), its last row (−sp cr, sp sr, cp). */
+/**
+ * Yaw, pitch and roll [deg] read off the matrix Rz(y)·Ry(p)·Rz(r): its last column is (cy sp, sy sp, cp), its last row
+ * (−sp cr, sp sr, cp).
+ */
 function anglesOf(rows: Sample["T"]): number[] {
   const angles = [
     Math.atan2(rows[1]![2]!, rows[0]![2]!),

@@ -6,8 +6,8 @@ import { Machine } from "./run/machine.ts";
 import type { DeclaredContext } from "./run/state.ts";
 
 /**
- * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder of
- * the robot, wherever its base stands in the cell.
+ * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder
+ * of the robot, wherever its base stands in the cell.
  */
 export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
   const convention = jointConvention(robot);

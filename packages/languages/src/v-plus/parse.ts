@@ -20,7 +20,8 @@ const POINT = /^\s*(?:DO\s+)?DECOMPOSE\s+([A-Z][A-Z0-9_.]*)\s*\[\s*([0-9]+)\s*\]
 
 /**
  * The neutral program that a V+ text amounts to. Loops, calls, decisions and pallets that a neutral program has too are
- * kept. Any other text is executed and its motions written down, so its loops and arrays come out as what they do. A point list moves nothing: each of its points becomes a joint move.
+ * kept. Any other text is executed and its motions written down, so its loops and arrays come out as what they do. A
+ * point list moves nothing: each of its points becomes a joint move.
  */
 export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): ReadSteps {
   const lines = textLines(text).map(plainText);
@@ -62,7 +63,10 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   };
 }
 
-/** The line of a point list as the move to its point, every character of the point in its column. Other lines stay as they are. */
+/**
+ * The line of a point list as the move to its point, every character of the point in its column. Other lines stay as
+ * they are.
+ */
 const asMove = (line: string): string =>
   POINT.test(line) ? "MOVE".padEnd(line.indexOf("#")) + line.slice(line.indexOf("#")) : line;
 

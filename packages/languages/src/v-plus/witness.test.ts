@@ -1,6 +1,6 @@
 /**
- * Text written out by hand from the published sample lines and from the statements of V+, not by the emitter; and what it
- * means, worked out by hand from those statements, not by the interpreter.
+ * Text written out by hand from the published sample lines and from the statements of V+, not by the emitter; and what
+ * it means, worked out by hand from those statements, not by the interpreter.
  */
 import {
   angleBetween,

@@ -1,8 +1,8 @@
 import type { Branch, Robot } from "@twincell/core";
 
 /**
- * Robots whose CS8 or CS9 controller speaks VAL 3, and how it names their postures. Joint angles are those of the library in
- * degrees: all zero stands straight up. The RX90L stands on a CS7 and speaks V+.
+ * Robots whose CS8 or CS9 controller speaks VAL 3, and how it names their postures. Joint angles are those of the
+ * library in degrees: all zero stands straight up. The RX90L stands on a CS7 and speaks V+.
  */
 const SPEAKS: ReadonlySet<string> = new Set(["staubli_rx160"]);
 export const speaksVal3 = (robot: Robot): boolean => SPEAKS.has(robot.id);

@@ -1,6 +1,6 @@
 /**
- * An application written out by hand from the statements of VAL 3, not by the emitter; and what it means, worked out by hand
- * from those statements, not by the interpreter.
+ * An application written out by hand from the statements of VAL 3, not by the emitter; and what it means, worked out by
+ * hand from those statements, not by the interpreter.
  */
 import { readFileSync } from "node:fs";
 import {

@@ -1,4 +1,7 @@
-/** An application as a person would write it by the statements of VAL 3 and by what its files hold: the emitter writes the same. */
+/**
+ * An application as a person would write it by the statements of VAL 3 and by what its files hold: the emitter writes
+ * the same.
+ */
 import {
   emptyProgram,
   flangePose,
@@ -165,7 +168,8 @@ test("behind a line to taught angles the arm is where the line led it, not a tur
     speed: { ratio: 0.1 },
     blend_m: 0,
   });
-  // Axis 4 comes from 150° and goes on to 160°, whatever number a turn away was taught; at 80° the same wrist is nearer than the other, at −100°.
+  // Axis 4 comes from 150° and goes on to 160°, whatever number a turn away was taught; at 80° the same wrist is nearer
+  // than the other, at −100°.
   const next = flangePose(robot.arm, [0, 0, 90, 80, 30, 0].map(radians)) as Pose as Pose<"frame", "tcp">;
   const it = program([
     move("a", "ptp", { q: [0, 0, 90, 150, 30, 90].map(radians) }),

@@ -48,7 +48,9 @@ export interface DatasetOptions {
   readonly turn_rad?: number;
 }
 
-/** Demonstrations for learning (row X-44): a program carried out again and again from starts that differ, line by line. */
+/**
+ * Demonstrations for learning (row X-44): a program carried out again and again from starts that differ, line by line.
+ */
 export function* datasetLines(
   engine: Engine,
   scene: PhysicalScene,

@@ -24,7 +24,10 @@ export interface Observation {
   readonly signals: Readonly<Record<string, boolean | number>>;
 }
 
-/** Joint targets for the next period [rad], and the gripper. Targets beyond limits or speeds are brought back within them. */
+/**
+ * Joint targets for the next period [rad], and the gripper. Targets beyond limits or speeds are brought back within
+ * them.
+ */
 export interface Action {
   readonly q: readonly number[];
   readonly gripper: boolean;
@@ -99,8 +102,8 @@ export function observe({
 }
 
 /**
- * A cell to learn in (row X-44), without a screen and without a clock: `reset` with a seed, then `step` after `step`, as
- * reinforcement learning writes it. The same seed and actions give the same observations to the last bit.
+ * A cell to learn in (row X-44), without a screen and without a clock: `reset` with a seed, then `step` after `step`,
+ * as reinforcement learning writes it. The same seed and actions give the same observations to the last bit.
  */
 export class LearningEnvironment {
   readonly period_s: number;

@@ -20,8 +20,8 @@ export const armMasses = ({ robot, worldFromBase }: PhysicalScene): ReturnType<t
   dynamicsModel(robot, { worldFromBase });
 
 /**
- * The arm as bodies in bodies, one each link (row L-71): masses, centres and inertias as published, rotor inertia by gear² as
- * armature, convex shells for contact. The base stands still.
+ * The arm as bodies in bodies, one each link (row L-71): masses, centres and inertias as published, rotor inertia by
+ * gear² as armature, convex shells for contact. The base stands still.
  *
  * @param masses  undefined when the arm is moved and its masses do not matter.
  */

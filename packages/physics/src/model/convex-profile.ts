@@ -10,8 +10,8 @@ export const isConvex = (outline: readonly Point2[]): boolean =>
   outline.every((a, i) => turn(a, outline[(i + 1) % outline.length]!, outline[(i + 2) % outline.length]!) >= -FLAT_M2);
 
 /**
- * A simple outline cut into convex pieces: its triangles, put together again wherever two that share an edge stay convex.
- * Not always the least number of pieces; at most four times as many.
+ * A simple outline cut into convex pieces: its triangles, put together again wherever two that share an edge stay
+ * convex. Not always the least number of pieces; at most four times as many.
  *
  * @see Hertel, Mehlhorn, Fast triangulation of simple polygons, FCT 1983.
  */

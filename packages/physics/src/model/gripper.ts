@@ -10,8 +10,9 @@ const SERVO_GAIN = 20;
 const FINGER_DRIVE_KG = 0.2;
 
 /**
- * A palm and two fingers on slides, each with a servo that closes at its speed and pushes with no more than its force. A
- * coupling keeps them at equal distance from the middle, as the gear of a parallel gripper does, so a part is centred.
+ * A palm and two fingers on slides, each with a servo that closes at its speed and pushes with no more than its force.
+ * A coupling keeps them at equal distance from the middle, as the gear of a parallel gripper does, so a part is
+ * centred.
  */
 export function gripperXml({
   flangeFromGrip,

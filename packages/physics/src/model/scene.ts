@@ -30,8 +30,8 @@ export const FINGERS = ["finger-a", "finger-b"] as const;
 export const TOUCH_SIZE = 4;
 
 /**
- * The whole cell as an MJCF text: angles in rad, lengths in m. Bodies stand in the order arm, gripper, belts, parts, people, which is
- * that of their coordinates.
+ * The whole cell as an MJCF text: angles in rad, lengths in m. Bodies stand in the order arm, gripper, belts, parts,
+ * people, which is that of their coordinates.
  */
 export function sceneXml(scene: PhysicalScene, masses: DynamicsModel | undefined): string {
   const arm = armXml(scene, masses);

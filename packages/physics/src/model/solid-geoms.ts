@@ -61,7 +61,10 @@ export function solidGeoms(shape: SolidShape): Geom[] {
   }
 }
 
-/** A convex piece turned about z: whole where it lies along the axis over all its height, in sectors where it leaves a hole. */
+/**
+ * A convex piece turned about z: whole where it lies along the axis over all its height, in sectors where it leaves a
+ * hole.
+ */
 function turned(piece: readonly Point2[]): Geom[] {
   const heights = piece.map(([, z]) => z);
   const onAxis = piece.filter(([r]) => r <= 1e-9).map(([, z]) => z);

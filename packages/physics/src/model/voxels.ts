@@ -6,8 +6,8 @@ export interface Cuboid {
 }
 
 /**
- * A concave mesh as boxes: cells of a grid whose middle lies inside, put together along x, then y, then z where rows are
- * equal. No hull closes a hole (row L-72); the surface is met to half a cell.
+ * A concave mesh as boxes: cells of a grid whose middle lies inside, put together along x, then y, then z where rows
+ * are equal. No hull closes a hole (row L-72); the surface is met to half a cell.
  *
  * @param cells  along the longest side.
  */

@@ -36,8 +36,8 @@ export interface PhysicsRunState {
 const SETTLE_S = 0.15;
 
 /**
- * Executes a program in a physical cell (row X-36): the stepper says where the arm is to be, the world what comes of it. Sensors
- * of the cell are the inputs of the program, its outputs run the belts.
+ * Executes a program in a physical cell (row X-36): the stepper says where the arm is to be, the world what comes of
+ * it. Sensors of the cell are the inputs of the program, its outputs run the belts.
  */
 export class PhysicsRun {
   readonly world: MujocoWorld;

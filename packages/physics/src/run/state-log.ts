@@ -1,6 +1,6 @@
 /**
- * A running hash of states: equal hashes mean equal numbers, to the last bit. Two lanes of 32 bits over the bytes of every
- * number, as FNV-1a mixes them, with two primes and two beginnings.
+ * A running hash of states: equal hashes mean equal numbers, to the last bit. Two lanes of 32 bits over the bytes of
+ * every number, as FNV-1a mixes them, with two primes and two beginnings.
  */
 export class StateLog {
   private a = 0x811c9dc5;

@@ -3,8 +3,8 @@ import type { MujocoWorld } from "../world.ts";
 import type { PhysicsEvent } from "./events.ts";
 
 /**
- * Watches people zones and stopping sensors (rows T-27, T-57). Slowing down ends when the zone is left; a stop stays until a
- * person lets the robot go on. A prediction: what a real safety controller does is its own affair.
+ * Watches people zones and stopping sensors (rows T-27, T-57). Slowing down ends when the zone is left; a stop stays
+ * until a person lets the robot go on. A prediction: what a real safety controller does is its own affair.
  */
 export class SafetyWatch {
   private readonly scene: PhysicalScene;

@@ -71,7 +71,10 @@ function topEdges(): Edge[] {
   }));
 }
 
-/** Tool axis 45° below the horizontal and into the carton; its x axis along the edge, turned by the spin about the tool axis. */
+/**
+ * Tool axis 45° below the horizontal and into the carton; its x axis along the edge, turned by the spin about the tool
+ * axis.
+ */
 function orientation(edge: Edge, spin_rad: number): Quaternion {
   const c = Math.cos(TILT_RAD);
   const s = Math.sin(TILT_RAD);
@@ -103,7 +106,10 @@ interface Trace {
   readonly tight: readonly string[];
 }
 
-/** The trace from one starting posture, each point nearest to the one before; undefined when it breaks off, jumps or touches. */
+/**
+ * The trace from one starting posture, each point nearest to the one before; undefined when it breaks off, jumps or
+ * touches.
+ */
 function follow(poses: readonly Pose<"world", "tcp">[], start: Float64Array): Trace | undefined {
   const branch = branchOf(robot, start)!;
   const tight = new Set<string>();

@@ -51,7 +51,10 @@ function wall(id: string, name: string, size_m: Vector3, x: number, y: number): 
   };
 }
 
-/** The RX90L on its column in a walled cell, with a carton of 400 × 300 × 200 mm on a low table: ready to trace the carton's top edges. */
+/**
+ * The RX90L on its column in a walled cell, with a carton of 400 × 300 × 200 mm on a low table: ready to trace the
+ * carton's top edges.
+ */
 export function edgeTraceCell(): StepsCell {
   const stand_m = TABLE_TOP_AT_M[2] - TABLE_TOP_M[2] / 2;
   return {

@@ -49,7 +49,10 @@ function orientation([x, y]: readonly [number, number]): Quaternion {
   return [qx + 0, qy + 0, qz + 0, qw + 0];
 }
 
-/** The cell of the edge trace with the traced program in it, ready to be played: all four top edges at 45°, one after the other. */
+/**
+ * The cell of the edge trace with the traced program in it, ready to be played: all four top edges at 45°, one after
+ * the other.
+ */
 export function tracedCartonCell(): StepsCell {
   const cell = edgeTraceCell();
   const tool = cell.tools[0]!;

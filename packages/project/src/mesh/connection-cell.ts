@@ -7,8 +7,8 @@ export type ConnectionCellRead =
   | { readonly kind: "refused"; readonly why: Refusal };
 
 /**
- * What a connected robot is kept clear of, from the document of its cell: the objects, and the tool in use. What the document says
- * of links of another robot is left out.
+ * What a connected robot is kept clear of, from the document of its cell: the objects, and the tool in use. What the
+ * document says of links of another robot is left out.
  *
  * @param worldFromBase  where the robot stands in that cell; where the robot of the document stands when left out.
  */

@@ -81,8 +81,8 @@ function placeErrorOf({ errors }: CellDocument): Pick<CellGeometry, "placeError_
 }
 
 /**
- * The matrix as far as it was learnt for what stands there now: of another robot it says nothing, and with another tool nothing of
- * that tool, because a pair that was left out for one shape may not be left out for the next.
+ * The matrix as far as it was learnt for what stands there now: of another robot it says nothing, and with another tool
+ * nothing of that tool, because a pair that was left out for one shape may not be left out for the next.
  */
 function pairsOf({ pairs, robot, tool }: CellDocument): Pick<CellGeometry, "pairs"> {
   if (pairs?.robot !== robot.id) return {};

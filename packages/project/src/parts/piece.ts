@@ -23,7 +23,9 @@ export type PartMaterial =
 export type PartPiece = {
   readonly material: PartMaterial;
   readonly at_m: Vector3;
-  /** "drawn": too thin or too small to collide with. "solid": collides and is not drawn, as the panel of a wire fence. */
+  /**
+   * "drawn": too thin or too small to collide with. "solid": collides and is not drawn, as the panel of a wire fence.
+   */
   readonly only?: "drawn" | "solid";
 } & (
   | { readonly kind: "box"; readonly size_m: Vector3; readonly turn_rad?: number }

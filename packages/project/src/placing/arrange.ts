@@ -13,7 +13,10 @@ export function groupOf({ objects }: CellDocument, id: string): readonly string[
   return [id, ...objects.filter(object => object.group === group && object.id !== id).map(object => object.id)];
 }
 
-/** An object that turned and moved with a pivot: worldFromObject' = worldFromPivot' · worldFromPivot⁻¹ · worldFromObject. */
+/**
+ * An object that turned and moved with a pivot: worldFromObject' = worldFromPivot' · worldFromPivot⁻¹ ·
+ * worldFromObject.
+ */
 export function movedWith(
   worldFromObject: Pose<"world", "object">,
   before: Pose<"world", "pivot">,
@@ -28,7 +31,10 @@ const shifted = (object: ObjectRecord, axis: Axis, by_m: number): ObjectRecord =
   return { ...object, worldFromObject: { ...object.worldFromObject, position } };
 };
 
-/** All objects flush with the first of them, along one axis of the world: at their lower or upper faces, or by their middles. */
+/**
+ * All objects flush with the first of them, along one axis of the world: at their lower or upper faces, or by their
+ * middles.
+ */
 export function aligned(
   objects: readonly ObjectRecord[],
   axis: Axis,
@@ -48,8 +54,9 @@ export function aligned(
 }
 
 /**
- * The pose of an object behind a mirror that stands square to an axis of the world at `at_m`. Place and heading are mirrored; the shape
- * is not: a shape that is the same on both sides of its own x–z plane comes out as its mirror image, any other as itself, turned.
+ * The pose of an object behind a mirror that stands square to an axis of the world at `at_m`. Place and heading are
+ * mirrored; the shape is not: a shape that is the same on both sides of its own x–z plane comes out as its mirror
+ * image, any other as itself, turned.
  */
 export function mirrored(worldFromObject: Pose<"world", "object">, axis: Axis, at_m: number): Pose<"world", "object"> {
   const position: Vector3 = [...worldFromObject.position] as Vector3;
@@ -118,7 +125,10 @@ export const circularPattern = (
     );
   });
 
-/** A shape that is so many times as long along its own axes. What is round stays round: its radius takes the mean of x and y. */
+/**
+ * A shape that is so many times as long along its own axes. What is round stays round: its radius takes the mean of x
+ * and y.
+ */
 export function scaledShape(shape: Shape, [x, y, z]: Vector3): Shape {
   const round = (x + y) / 2;
   switch (shape.kind) {

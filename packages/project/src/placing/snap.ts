@@ -28,9 +28,9 @@ export interface SnapOptions {
 export const toGrid = (value: number, step: number): number => (step > 0 ? Math.round(value / step) * step : value);
 
 /**
- * Where a moved box comes to lie: axis by axis flush with the floor (z = 0), with a face or the middle of another object within
- * `tolerance_m`, else on the grid. Faces that meet on two axes are an edge, on three a corner. The grid counts the origin of what is
- * moved, not its box.
+ * Where a moved box comes to lie: axis by axis flush with the floor (z = 0), with a face or the middle of another
+ * object within `tolerance_m`, else on the grid. Faces that meet on two axes are an edge, on three a corner. The grid
+ * counts the origin of what is moved, not its box.
  *
  * @param origin  of what is moved, in the world, before snapping [m].
  * @param bounds  of what is moved, at that place [m].

@@ -13,7 +13,10 @@ export interface ApiRoute {
   readonly path: string;
   readonly summary: string;
   readonly tag: "server" | "robots" | "commands" | "programs" | "documents" | "recordings";
-  /** "open": no account or code is asked for; "look": whoever may look; "write": whoever may change programs and cells; "command": whoever may move robots; "stop": anyone, always. */
+  /**
+   * "open": no account or code is asked for; "look": whoever may look; "write": whoever may change programs and cells;
+   * "command": whoever may move robots; "stop": anyone, always.
+   */
   readonly access: "open" | "look" | "write" | "command" | "stop";
   /** Whether the header Twincell-Lease must name the lease of that robot. */
   readonly lease?: "needed" | "when-taken";
@@ -26,7 +29,10 @@ const robots = "/api/v1/robots";
 const robot = `${robots}/{id}`;
 const commands = { tag: "commands", access: "command", answer: outcomeSchema } as const;
 
-/** Every address that the server answers beside the files of the studio: the documents at /api and the server are made from this table. */
+/**
+ * Every address that the server answers beside the files of the studio: the documents at /api and the server are made
+ * from this table.
+ */
 export const API_ROUTES = {
   apiPage: {
     method: "get",

@@ -3,7 +3,9 @@ const KEPT = 16;
 
 /** How another clock stands to ours, from round trips. */
 export interface ClockMap {
-  /** A message left at `sent_s` and came back at `back_s` of our clock; between the two the other clock said `there_s`. */
+  /**
+   * A message left at `sent_s` and came back at `back_s` of our clock; between the two the other clock said `there_s`.
+   */
   heard(sent_s: number, there_s: number, back_s: number): void;
   /** other = ours + offset [s]; NaN before the first round trip. */
   readonly offset_s: number;
@@ -12,8 +14,8 @@ export interface ClockMap {
 }
 
 /**
- * The quickest round trip of the last 16 decides: whatever made others slower was a queue on one of the two ways, and would
- * shift the offset by half of it.
+ * The quickest round trip of the last 16 decides: whatever made others slower was a queue on one of the two ways, and
+ * would shift the offset by half of it.
  *
  *   offset = there − (sent + back) / 2,   |error| ≤ (back − sent) / 2
  */

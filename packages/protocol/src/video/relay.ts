@@ -58,9 +58,10 @@ interface Guest {
 }
 
 /**
- * Hands the pictures of cameras to those who look. A picture stands alone, so any may be left out: to each viewer at most two
- * are under way, and when one was unpacked the newest goes next, never a queue of old ones. Who comes late gets the newest
- * at once. It keeps one picture a camera, whatever comes. Whatever is no message ends that connection with one sentence.
+ * Hands the pictures of cameras to those who look. A picture stands alone, so any may be left out: to each viewer at
+ * most two are under way, and when one was unpacked the newest goes next, never a queue of old ones. Who comes late
+ * gets the newest at once. It keeps one picture a camera, whatever comes. Whatever is no message ends that connection
+ * with one sentence.
  */
 export function createVideoRelay(now_s: () => number, links: readonly string[] = []): VideoRelay {
   const cameras = new Map<number, Camera>();

@@ -15,7 +15,10 @@ const sequence = { sequence: z.int().min(0).max(0xffff_ffff) } as const;
 
 /** What cameras and viewers may say. */
 const requestSchema = z.discriminatedUnion("type", [
-  /** From now on this connection is a camera; pictures come as binary messages. Who comes again with the same key takes their own old place. */
+  /**
+   * From now on this connection is a camera; pictures come as binary messages. Who comes again with the same key takes
+   * their own old place.
+   */
   z.strictObject({ type: z.literal("camera"), name: z.string().min(1).max(60), key: z.string().min(8).max(60) }),
   /** From now on the list of cameras is told. */
   z.strictObject({ type: z.literal("viewer") }),
@@ -78,7 +81,10 @@ export interface PictureHead {
   /** How far the camera's clock may be off [s]. */
   readonly uncertain_s: number;
 }
-/** Little-endian: u16 magic, u16 camera, u32 sequence, f64 captured, f64 sent, f64 relayed, f32 uncertain, u32 zero; then the JPEG. */
+/**
+ * Little-endian: u16 magic, u16 camera, u32 sequence, f64 captured, f64 sent, f64 relayed, f32 uncertain, u32 zero;
+ * then the JPEG.
+ */
 export const PICTURE_HEAD_BYTES = 40;
 const MAGIC = 0x5654; // "TV"
 
@@ -94,7 +100,9 @@ export function writePictureHead(bytes: Uint8Array, head: PictureHead): void {
   view.setFloat32(32, head.uncertain_s, true);
   view.setUint32(36, 0, true);
 }
-/** Null when it is no picture: too short or long, another magic, a time that is no number, or no JPEG behind the head. */
+/**
+ * Null when it is no picture: too short or long, another magic, a time that is no number, or no JPEG behind the head.
+ */
 export function readPictureHead(bytes: Uint8Array): PictureHead | null {
   if (bytes.length < PICTURE_HEAD_BYTES + 4 || bytes.length > LARGEST_PICTURE) return null;
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);

@@ -27,7 +27,10 @@ export interface Archive {
   readonly file: string;
   /** Files that were deleted because they were too old or too many. */
   readonly deleted: number;
-  /** Why nothing is recorded now; the same from the first failure until recording goes on, which is tried every `RETRY_S`. */
+  /**
+   * Why nothing is recorded now; the same from the first failure until recording goes on, which is tried every
+   * `RETRY_S`.
+   */
   readonly problem: Refusal | null;
 }
 

@@ -33,7 +33,10 @@ export interface Comparison {
   readonly apart_m: number;
   readonly apartAt_s: number;
   readonly mean_m: number;
-  /** Largest distance of the flange of the second from the way of the first, whenever it is there [m]: the path alone, without the timing. */
+  /**
+   * Largest distance of the flange of the second from the way of the first, whenever it is there [m]: the path alone,
+   * without the timing.
+   */
   readonly offPath_m: number;
   /** Largest difference of each joint at the same time [rad]. */
   readonly joints_rad: readonly number[];

@@ -16,7 +16,10 @@ export interface JointTravel {
   readonly travel: number;
   /** The same for each hour that was recorded. */
   readonly perHour: number;
-  /** Share of the joint's service interval that the history used up, and in how many recorded hours the rest will be; without an interval nobody knows. */
+  /**
+   * Share of the joint's service interval that the history used up, and in how many recorded hours the rest will be;
+   * without an interval nobody knows.
+   */
   readonly service: Reported<{ readonly share: number; readonly hoursLeft: number }>;
 }
 export interface AlarmCount {
@@ -56,7 +59,10 @@ export interface Dashboard {
 }
 
 export interface DashboardOptions {
-  /** What a joint may travel between two services [rad, or m], base first; 0 where nobody said. Makers publish it with the robot's papers. */
+  /**
+   * What a joint may travel between two services [rad, or m], base first; 0 where nobody said. Makers publish it with
+   * the robot's papers.
+   */
   readonly serviceTravel?: readonly number[];
 }
 

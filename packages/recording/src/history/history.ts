@@ -32,7 +32,10 @@ export interface Stretch {
   readonly damaged: number;
 }
 
-/** Hours and days of one robot, in any number of files, of which only what is looked at is read. Times count from its first sample. */
+/**
+ * Hours and days of one robot, in any number of files, of which only what is looked at is read. Times count from its
+ * first sample.
+ */
 export interface History
   extends Pick<RunFacts, "robot" | "robotName" | "program" | "cell" | "startedAt_ns" | "joints"> {
   readonly duration_s: number;

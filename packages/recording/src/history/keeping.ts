@@ -38,7 +38,8 @@ export function fileTime_ms(name: string): number {
 
 const DAY_MS = 86_400_000;
 /**
- * Days since 1970-01-01 of a date of the Gregorian calendar, and back. Years begin in March, so that the leap day is the last.
+ * Days since 1970-01-01 of a date of the Gregorian calendar, and back. Years begin in March, so that the leap day is
+ * the last.
  *
  * @see Richards, Mapping Time, Oxford 1998, ch. 25.
  */

@@ -14,7 +14,10 @@ export interface FilePort {
 
 /** A place that also takes new recordings. */
 export interface ArchivePort extends FilePort {
-  /** A new, empty file. What is written is with the operating system when `write` returns: a crash of ours does not lose it. */
+  /**
+   * A new, empty file. What is written is with the operating system when `write` returns: a crash of ours does not lose
+   * it.
+   */
   create(name: string): FileSink;
   remove(name: string): Promise<void>;
 }

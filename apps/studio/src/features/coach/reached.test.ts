@@ -12,7 +12,8 @@ test("the tracing example has six steps to learn, and an empty cell none of its 
     "Check it",
     "Run it",
   ]);
-  // The example brings the objects and the kinematics; an empty cell has neither piece nor program, and is welcomed instead.
+  // The example brings the objects and the kinematics; an empty cell has neither piece nor program, and is welcomed
+  // instead.
   const example = edgeTraceCell();
   const empty = emptyCell();
   expect([

@@ -15,7 +15,9 @@ import "./collide.css";
 /** What the hand guard keeps from the cell [m]. */
 const KEPT_M = 0.002;
 
-/** What happens where something would touch, what that rests on, and which parts of the robot are checked against which. */
+/**
+ * What happens where something would touch, what that rests on, and which parts of the robot are checked against which.
+ */
 export default function CollisionDialog() {
   const open = useStore(dialogStore, state => state.open === "collision");
   const robot = useStore(cellStore, state => robotOf(state.document));

@@ -13,7 +13,9 @@ import { openTextFiles } from "../../runtime/open-text.ts";
 const isProgram = (kind: string): boolean =>
   DIALECTS.some(({ extensions }) => extensions.some(each => each.toLowerCase() === `.${kind}`));
 
-/** Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open. */
+/**
+ * Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open.
+ */
 export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
@@ -44,8 +46,8 @@ async function openTexts(files: readonly File[]): Promise<void> {
 const isShape = (name: string): boolean => [...IMPORT_ENDINGS, "zip"].includes(endingOf(name));
 
 /**
- * Opens what was chosen or dropped at once: recordings together, as one history; program files together, as one program; shapes
- * together with the files beside them, which they may name; everything else one by one.
+ * Opens what was chosen or dropped at once: recordings together, as one history; program files together, as one
+ * program; shapes together with the files beside them, which they may name; everything else one by one.
  */
 export async function openFiles(files: readonly FileAt[]): Promise<void> {
   const recordings = files.filter(({ file }) => /\.mcap$/i.test(file.name)).map(({ file }) => file);

@@ -12,7 +12,10 @@ import { Trend } from "./Trend.tsx";
 
 const percent = (share: number): string => (100 * share).toFixed(share < 0.1 && share > 0 ? 1 : 0);
 
-/** What the recording says of production: cycle times, use, alarms, loads, wear (row T-56). What the source does not give is “not reported”. */
+/**
+ * What the recording says of production: cycle times, use, alarms, loads, wear (row T-56). What the source does not
+ * give is “not reported”.
+ */
 export default function Figures() {
   const figures = useStore(historyStore, state => state.figures);
   const name = useStore(historyStore, state => `${state.open}${state.name}${state.startedAt_ms}`);

@@ -19,7 +19,10 @@ const MOST_TICKS = 300;
 /** What one key press moves by: some thousandth of what is shown, a round number, 1 ms at least. */
 const stepOf = (shown_s: number): number => Math.max(0.001, 10 ** Math.floor(Math.log10(shown_s / 5000)));
 
-/** The timeline of what is open: any moment of it, at any pace, with a mark where something happened. Long recordings are looked at part by part. */
+/**
+ * The timeline of what is open: any moment of it, at any pace, with a mark where something happened. Long recordings
+ * are looked at part by part.
+ */
 export default function Rewind() {
   const { open, name, opening, t_s, duration_s, playing, speed, marks, window } = useStore(historyStore);
   if (open === null && name === "") return <p className="timeline-empty rewind-empty">{words.history.choose}</p>;

@@ -6,7 +6,9 @@ import { dialogStore } from "../../stores/dialogs.ts";
 import { viewStore } from "../../stores/view.ts";
 import { isKeys, isTyping } from "../../ui/keys.ts";
 
-/** Keys of the page: commands by their combination, and held keys that jog. Losing focus or hiding the tab releases all. */
+/**
+ * Keys of the page: commands by their combination, and held keys that jog. Losing focus or hiding the tab releases all.
+ */
 export function Shortcuts() {
   useEffect(() => {
     const down = (event: KeyboardEvent): void => {

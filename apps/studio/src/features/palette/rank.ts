@@ -1,7 +1,7 @@
 /**
- * How well a typed query fits the title of a command, 0 (not at all) to 1. A whole title goes before its beginning, that before
- * the beginnings of its words, that before letters inside a word; other names of the command count a little less than its
- * title. Every word of the query has to be found.
+ * How well a typed query fits the title of a command, 0 (not at all) to 1. A whole title goes before its beginning,
+ * that before the beginnings of its words, that before letters inside a word; other names of the command count a little
+ * less than its title. Every word of the query has to be found.
  */
 export function commandScore(query: string, title: string, aliases: readonly string[] = []): number {
   const wanted = fold(query);
@@ -17,7 +17,10 @@ const EXACT = 1;
 const PREFIX = 0.9;
 const WORD_START = 0.6;
 const SUBSTRING = 0.3;
-/** Among titles that fit equally well, the one of which the query is the larger fraction and which has it earlier goes first. */
+/**
+ * Among titles that fit equally well, the one of which the query is the larger fraction and which has it earlier goes
+ * first.
+ */
 const TIE = 0.02;
 
 function textScore(query: string, title: string): number {

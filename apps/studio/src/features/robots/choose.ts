@@ -11,8 +11,8 @@ export interface RobotWish {
 export const ANY_ROBOT: RobotWish = { search: "", maker: "", reach_m: 0, payload_kg: 0 };
 
 /**
- * The robots that fit a wish, in the order they were given. With a wished payload, robots whose payload no source states stand
- * last: they may carry it.
+ * The robots that fit a wish, in the order they were given. With a wished payload, robots whose payload no source
+ * states stand last: they may carry it.
  */
 export function fittingRobots(robots: readonly Robot[], wish: RobotWish): readonly Robot[] {
   const { search, maker, reach_m, payload_kg } = wish;

@@ -19,7 +19,9 @@ import { Foreign } from "./Foreign.tsx";
 import { SignalList } from "./SignalList.tsx";
 import "./run.css";
 
-/** Run: the exported text on the left of one's mind, the twin in the view. The line under way is lit and kept in sight. */
+/**
+ * Run: the exported text on the left of one's mind, the twin in the view. The line under way is lit and kept in sight.
+ */
 export default function Run() {
   const document = useStore(cellStore, state => state.document);
   const program = programOf(document);

@@ -19,7 +19,10 @@ interface Props {
   readonly onDuplicate: () => void;
 }
 
-/** One cell: picture, name, what its check found, when it was last changed. Enter opens, F2 renames, Delete moves it to the trash. */
+/**
+ * One cell: picture, name, what its check found, when it was last changed. Enter opens, F2 renames, Delete moves it to
+ * the trash.
+ */
 export function CellCard({ cell, where, robot, now_ms, onOpen, onTrash, onPutBack, onDuplicate }: Props) {
   const current = useStore(libraryStore, state => state.current === cell.id);
   const [renaming, setRenaming] = useState(false);

@@ -7,7 +7,9 @@ export interface FoundCell {
   readonly where: string | null;
 }
 
-/** Cells whose name, robot or anything inside has all words of the query. Both are compared without regard to capitals. */
+/**
+ * Cells whose name, robot or anything inside has all words of the query. Both are compared without regard to capitals.
+ */
 export function findCells(
   cells: readonly StoredCell[],
   query: string,

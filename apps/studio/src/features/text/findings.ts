@@ -4,7 +4,10 @@ import type { LinePlace, ReadTextProgram, TextFinding } from "../../workers/text
 /** More than this nobody reads at once. */
 const MAX_FINDINGS = 200;
 
-/** What is wrong with a text, each at its line: what could not be read, and what the check says of the motions. Bad comes first. */
+/**
+ * What is wrong with a text, each at its line: what could not be read, and what the check says of the motions. Bad
+ * comes first.
+ */
 export function findingsOf(read: ReadTextProgram | null, verdict: Verdict | null): readonly TextFinding[] {
   if (read === null) return [];
   const places = new Map<string, LinePlace>(read.places);

@@ -14,7 +14,10 @@ export type TorquePlot =
 export const LIMIT_LINES = 2;
 const POINTS = 1200;
 
-/** [t, J1 … Jn, −100, 100]: torques as shares of what each joint can give [%], so that two lines are the limits of all; or why not. */
+/**
+ * [t, J1 … Jn, −100, 100]: torques as shares of what each joint can give [%], so that two lines are the limits of all;
+ * or why not.
+ */
 export function torquePlot(
   plan: Plan,
   robot: Robot,

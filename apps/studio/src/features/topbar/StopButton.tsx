@@ -3,7 +3,10 @@ import { escapeRule } from "../../runtime/moving.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { words } from "../../messages/index.ts";
 
-/** Always at the same place, above every dialog, and on the Pause key, or Esc while something moves. Acts on press, not on release. */
+/**
+ * Always at the same place, above every dialog, and on the Pause key, or Esc while something moves. Acts on press, not
+ * on release.
+ */
 export function StopButton() {
   useEffect(() => {
     const escape = escapeRule();

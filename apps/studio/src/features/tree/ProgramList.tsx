@@ -83,7 +83,8 @@ export function ProgramList() {
     const row = rows[index];
     if (!row || !program) return;
     const ids = idsOf(row);
-    // One line up or down; a closed group is one line, a block goes with what is inside it, and lines lead into blocks and out of them.
+    // One line up or down; a closed group is one line, a block goes with what is inside it, and lines lead into blocks
+    // and out of them.
     const next = by < 0 ? index - 1 : behind(rows, index);
     if (!rows[next]) return;
     if (placeSteps(ids, anchorOf(rows[by < 0 ? next : next + 1]))) {

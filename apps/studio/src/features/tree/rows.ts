@@ -22,7 +22,10 @@ export type ProgramRow =
   /** "Otherwise", or the name of a routine. `before`: the list that ends above it. */
   | (Base & { readonly kind: "head"; readonly name: string; readonly before: ListPlace });
 
-/** Steps that follow one another in the same group are one line until it is opened; steps inside blocks stand below them. */
+/**
+ * Steps that follow one another in the same group are one line until it is opened; steps inside blocks stand below
+ * them.
+ */
 export function programRows(
   program: Program,
   verdict: Verdict | null,
@@ -104,7 +107,10 @@ export function pathOf(row: ProgramRow): "ptp" | "lin" | "circ" | "spline" | "" 
   const paths = new Set(stepsOf(row).map(step => (step.type === "move" ? step.path : "")));
   return paths.size === 1 ? [...paths][0]! : "";
 }
-/** What stands above a row when something is put there: a step to stand before, a list to end, or null for the end of the program. */
+/**
+ * What stands above a row when something is put there: a step to stand before, a list to end, or null for the end of
+ * the program.
+ */
 export function anchorOf(row: ProgramRow | undefined): string | null | ListPlace {
   if (row === undefined) return null;
   return row.kind === "head" ? row.before : (idsOf(row)[0] ?? null);

@@ -150,7 +150,9 @@ function Picture({ id, trouble: problem }: { readonly id: string; readonly troub
 
 const agesOf = (feed: Feed): number => (feed.times ? Math.max(0, feed.times.shown_s - feed.times.captured_s) : NaN);
 
-/** The running estimate, quietly: the middle of the last pictures' ages, with how far the clocks may be off in its tip. */
+/**
+ * The running estimate, quietly: the middle of the last pictures' ages, with how far the clocks may be off in its tip.
+ */
 function Age({ id }: { readonly id: string }) {
   const element = useRef<HTMLSpanElement>(null);
   const ages = useRef<number[]>([]);

@@ -3,7 +3,10 @@ const GAP_PX = 12;
 const TOP_PX = 54;
 let front = 6;
 
-/** Lets a panel be moved within its parent by its grip: dragged, or by arrow keys. Where it goes is written to its style. */
+/**
+ * Lets a panel be moved within its parent by its grip: dragged, or by arrow keys. Where it goes is written to its
+ * style.
+ */
 export function movable(panel: HTMLElement, grip: HTMLElement, place: number): () => void {
   const parent = panel.offsetParent ?? document.body;
   const beside = GAP_PX + place * (panel.offsetWidth + GAP_PX);

@@ -41,8 +41,8 @@ export function workerWatcher(): Watcher {
 }
 
 /**
- * Keeps looking at the posture on screen: one posture is under way at a time, and the newest goes next, so that a slow look
- * never makes a queue. Contacts colour what is touched and sound once when they begin (rows N-47 … N-49).
+ * Keeps looking at the posture on screen: one posture is under way at a time, and the newest goes next, so that a slow
+ * look never makes a queue. Contacts colour what is touched and sound once when they begin (rows N-47 … N-49).
  */
 export function watchCollisions(watcher: Watcher = workerWatcher()): () => void {
   let edition = 0;

@@ -1,7 +1,10 @@
 import { everyStep, type Program, type Signals, type Step } from "@twincell/core";
 import type { Moment } from "@twincell/recording";
 
-/** A past instant that a run goes on from: which step was under way, and how gripper and lines stood. The posture is that of the robot on screen. */
+/**
+ * A past instant that a run goes on from: which step was under way, and how gripper and lines stood. The posture is
+ * that of the robot on screen.
+ */
 export interface Branch {
   /** "" begins with the first step. */
   readonly step: string;
@@ -18,7 +21,10 @@ export function branchOf(
   return { step: known ? step : "", gripperClosed, signals };
 }
 
-/** The gripper as it was, then the steps from that one on. What came before it is passed over, decisions seeing the lines as they are now. */
+/**
+ * The gripper as it was, then the steps from that one on. What came before it is passed over, decisions seeing the
+ * lines as they are now.
+ */
 export function* stepsFrom(steps: Iterable<Step>, { step, gripperClosed }: Branch): Generator<Step> {
   let passing = step !== "";
   let first = true;

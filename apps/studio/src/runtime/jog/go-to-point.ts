@@ -15,8 +15,8 @@ import { goAround } from "../planning/planning.ts";
 const MOST_CHECKS = 1000;
 
 /**
- * Goes to a posture as the chosen behaviour wants it: straight where a contact is only an alert; not at all where the way is blocked and
- * contacts stop; by another way where they are to be untangled.
+ * Goes to a posture as the chosen behaviour wants it: straight where a contact is only an alert; not at all where the
+ * way is blocked and contacts stop; by another way where they are to be untangled.
  */
 export function goThere(
   robot: Robot,

@@ -51,8 +51,8 @@ export function namesOf({ a, b }: Contact): readonly [string, string] {
 }
 
 /**
- * Moves the robot on screen by hand, from where it stands towards q, as the chosen behaviour wants it. Stopped, it goes back to the
- * last posture with room around it; the sentence says what was met.
+ * Moves the robot on screen by hand, from where it stands towards q, as the chosen behaviour wants it. Stopped, it goes
+ * back to the last posture with room around it; the sentence says what was met.
  */
 export function moveByHand(
   q_rad: Float64Array,

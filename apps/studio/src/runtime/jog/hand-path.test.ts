@@ -65,7 +65,10 @@ afterEach(() => {
   for (const end of ends) end();
 });
 
-/** Largest distance and turn between the way of the hand and the planned way of the recorded program, looked at from both sides. */
+/**
+ * Largest distance and turn between the way of the hand and the planned way of the recorded program, looked at from
+ * both sides.
+ */
 function deviation(): { m: number; rad: number } {
   const planned = planProgram(theProgram()!, robot, { worldFromBase, start_rad: START });
   if (planned.kind !== "planned") throw new Error(JSON.stringify(planned));

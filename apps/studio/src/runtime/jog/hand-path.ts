@@ -27,7 +27,9 @@ const LEAST_GAP_MS = 10;
 const PASS_M = RECORD_EVERY_M / 2;
 /** Below this change of a joint two postures are the same point [rad]. */
 const SAME_RAD = 1e-7;
-/** Replayed as fast as the hand went, within these bounds: a hand that hesitates does not make a program that crawls. */
+/**
+ * Replayed as fast as the hand went, within these bounds: a hand that hesitates does not make a program that crawls.
+ */
 const SLOWEST_MPS = 0.01;
 const FASTEST_MPS = 0.25;
 /** Where the tool only turns, one radian counts as this much path [m/rad], as in the planner. */
@@ -36,14 +38,17 @@ const TURN_M = 0.1;
 /**
  * Records the way of the hand while it jogs or drags (row N-57): the posture it began at, a point for every
  * `RECORD_EVERY_M` or `RECORD_EVERY_RAD`, and the posture it let go at. A stroke goes to the program when the hand lets
- * go; all strokes until recording is switched off are one group and one undo step. Allocates nothing while the hand moves.
+ * go; all strokes until recording is switched off are one group and one undo step. Allocates nothing while the hand
+ * moves.
  */
 export function startHandPath(): () => void {
   const stroke = new Float64Array(MAX_COORDINATES * MAX_POINTS);
   const standing = new Float64Array(MAX_COORDINATES);
   const last = identity<"world", "tcp">();
   const before = identity<"world", "tcp">();
-  /** `ended`: points of the stroke before, whose last still stands in `stroke`; 0 before the first of this recording. */
+  /**
+   * `ended`: points of the stroke before, whose last still stands in `stroke`; 0 before the first of this recording.
+   */
   let count = 0;
   let ended = 0;
   let way_m = 0;
@@ -66,7 +71,10 @@ export function startHandPath(): () => void {
     for (let i = 0; i < joints; i++) if (Math.abs(q[i]! - stroke[joints * (count - 1) + i]!) >= by_rad) return true;
     return false;
   };
-  /** The stroke ends at q and goes to the program; one that goes on where the last ended leaves out the point they share. */
+  /**
+   * The stroke ends at q and goes to the program; one that goes on where the last ended leaves out the point they
+   * share.
+   */
   const finish = (now_ms: number, q: Float64Array): void => {
     if (turned(q, SAME_RAD)) keep(q, now_ms);
     const took_s = (now_ms - began_ms) / 1000;

@@ -165,8 +165,8 @@ function stillPushed(coordinate: Coordinate, held: Float64Array, before: Float64
 }
 
 /**
- * The first time a push meets a limit: sound, 500 ms, and which joint and limit. Held on, it stays blocked silently, also
- * where a longer or shorter frame lets it creep on for a moment.
+ * The first time a push meets a limit: sound, 500 ms, and which joint and limit. Held on, it stays blocked silently,
+ * also where a longer or shorter frame lets it creep on for a moment.
  *
  * @param known  what stood in the panel before.
  * @param told   coordinates whose push has been told of.

@@ -19,7 +19,9 @@ export const interpolateTo = (robot: Robot, q_rad: ArrayLike<number>, done?: (ar
   interpolateAlong(robot, [theLive().q_rad, q_rad], done);
 };
 
-/** The same along several straight lines, without stopping between them. The first posture is where the robot stands. */
+/**
+ * The same along several straight lines, without stopping between them. The first posture is where the robot stands.
+ */
 export function interpolateAlong(
   robot: Robot,
   way: readonly ArrayLike<number>[],

@@ -33,7 +33,10 @@ export function chosenPresetAxis(): Readonly<Vector3> | null {
   return aid === null ? null : orientationPresetAxis(pieceNow(), aid, axis);
 }
 
-/** Turns the tool to the next or previous orientation aid about its tip (rows N-31, N-35, N-52); says why when it cannot. */
+/**
+ * Turns the tool to the next or previous orientation aid about its tip (rows N-31, N-35, N-52); says why when it
+ * cannot.
+ */
 export function cycleOrientationPreset(by: 1 | -1): void {
   const robot = theRobot();
   const now = jogStore.getState().aid;

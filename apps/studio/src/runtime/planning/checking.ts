@@ -34,7 +34,9 @@ const WAIT_MS = 180;
 /** Distance kept from everything [m]: contact is what is refused, nearness is shown. */
 const MARGIN_M = 0;
 
-/** Judges the program after every edit, away from the page. The newest edit wins; what is under way is given up for it. */
+/**
+ * Judges the program after every edit, away from the page. The newest edit wins; what is under way is given up for it.
+ */
 export interface Checking {
   now(): void;
   cancel(): void;

@@ -56,7 +56,10 @@ export function writtenProgram(program: Program, document: CellDocument): Promis
 
 const NOTHING: PostState = { working: false, emitted: null, proof: null, trouble: null };
 
-/** Shows the present program in the chosen language, written and where wanted proven away from the page; the answer comes through the store. */
+/**
+ * Shows the present program in the chosen language, written and where wanted proven away from the page; the answer
+ * comes through the store.
+ */
 export function postProgram(prove: boolean): void {
   const { document } = cellStore.getState();
   const program = programOf(document);

@@ -97,8 +97,8 @@ function hired(): Worker {
 }
 
 /**
- * Home, then each edge as a group of its own, then home again. The points belong to the object of their edge and move with it; the
- * group remembers the edge, so that the checker can say how far they are off it.
+ * Home, then each edge as a group of its own, then home again. The points belong to the object of their edge and move
+ * with it; the group remembers the edge, so that the checker can say how far they are off it.
  */
 export function addTrace(
   edges: readonly (readonly TracedPoint[])[],

@@ -44,7 +44,10 @@ interface PointOfEdge {
   readonly role: "lead-in" | "edge" | "lead-out";
   readonly inserted: boolean;
 }
-/** A point of a followed edge has the joint angles found for it; one of an edge that the robot cannot follow is where the tool would have to be. */
+/**
+ * A point of a followed edge has the joint angles found for it; one of an edge that the robot cannot follow is where
+ * the tool would have to be.
+ */
 export type TracedPoint =
   | (PointOfEdge & { readonly q: readonly number[] })
   | (PointOfEdge & { readonly worldFromTcp: Pose<"world", "tcp"> });
@@ -54,7 +57,9 @@ export type TraceAnswer =
       readonly edges: readonly (readonly TracedPoint[])[];
       readonly inserted: number;
       readonly deviation_m: number;
-      /** Edges, from 1, that cannot be followed, and why; their points are there all the same, for the checker to judge. */
+      /**
+       * Edges, from 1, that cannot be followed, and why; their points are there all the same, for the checker to judge.
+       */
       readonly unreached: readonly { readonly edge: number; readonly sentence: string }[];
     }
   | { readonly kind: "cannot"; readonly edge: number; readonly sentence: string };
@@ -63,7 +68,10 @@ export type TraceAnswer =
 const SPINS = Array.from({ length: 12 }, (_, i) => (i * Math.PI) / 6);
 /** Nearer to a joint limit than this costs as much as a detour. */
 const ROOM_RAD = (15 * Math.PI) / 180;
-/** An arm whose joints turn twice round has hundreds of postures for a point, most of them others by whole turns: the nearest are tried. */
+/**
+ * An arm whose joints turn twice round has hundreds of postures for a point, most of them others by whole turns: the
+ * nearest are tried.
+ */
 const MOST_WAYS = 16;
 const TURN_TOLERANCE_RAD = (0.1 * Math.PI) / 180;
 /** The rest of the tolerance is for passing the points without a stop. */

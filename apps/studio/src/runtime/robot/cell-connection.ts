@@ -98,8 +98,8 @@ let pressed: Key | null = null;
 let underWay = false;
 
 /**
- * Called every frame with what is held on pendant, keyboard or gamepad: a change of the key begins or ends a jog of the connected robot,
- * the strongest key counts. The next one begins when the one before has ended.
+ * Called every frame with what is held on pendant, keyboard or gamepad: a change of the key begins or ends a jog of the
+ * connected robot, the strongest key counts. The next one begins when the one before has ended.
  */
 export function jogLive(held: Float64Array, now_ms: number): void {
   let next: Key | null = null;

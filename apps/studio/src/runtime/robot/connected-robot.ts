@@ -12,13 +12,16 @@ const refused = (code: string, sentence: string, hint = ""): CommandOutcome => (
   why: { code, sentence, hint },
 });
 
-/** Speeds of a jog at an override of 100 %: of the joint speed, and along a straight line [m/s]; at most the 0.25 m/s of manual mode. */
+/**
+ * Speeds of a jog at an override of 100 %: of the joint speed, and along a straight line [m/s]; at most the 0.25 m/s of
+ * manual mode.
+ */
 const JOG_RATIO = 0.1;
 const JOG_MPS = 0.1;
 
 /**
- * Direct control of one connected robot: every command goes to its guard, which refuses or stops it; nothing here moves what
- * is drawn. Joints count from 1. Angles in rad, the flange in the robot base.
+ * Direct control of one connected robot: every command goes to its guard, which refuses or stops it; nothing here moves
+ * what is drawn. Joints count from 1. Angles in rad, the flange in the robot base.
  */
 export interface ConnectedRobot {
   /** The enabling switch. Letting go also stops a robot whose guard does not ask for the switch. */

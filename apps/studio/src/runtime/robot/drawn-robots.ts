@@ -14,7 +14,10 @@ let robot: ShownRobot | null = null;
 let othersMoved = 0;
 const others = new Map<string, ShownArm>();
 
-/** The robot of the cell as it is to be drawn: as it is, unless somebody shows it as it was. Drawn, not commanded: who commands asks `theLive`. */
+/**
+ * The robot of the cell as it is to be drawn: as it is, unless somebody shows it as it was. Drawn, not commanded: who
+ * commands asks `theLive`.
+ */
 export const shownRobot = (): ShownRobot => robot ?? theLive();
 /** Another controller's robot as somebody shows it instead of as it is. */
 export const shownInstead = (id: string): ShownArm | undefined => others.get(id);
@@ -29,7 +32,10 @@ export function showOtherInstead(id: string, arm: ShownArm | null): void {
   othersMoved++;
 }
 
-/** Counts up with every change of an arm that is not the cell's own: another controller's, a ghost, one of the past. The frame loop draws when it has. */
+/**
+ * Counts up with every change of an arm that is not the cell's own: another controller's, a ghost, one of the past. The
+ * frame loop draws when it has.
+ */
 export const othersRevision = (): number => othersMoved;
 export function noteOther(): void {
   othersMoved++;

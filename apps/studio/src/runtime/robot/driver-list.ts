@@ -13,7 +13,10 @@ export interface OfferedDriver {
   readonly port: number | null;
 }
 
-/** What the dialog offers: brands with a virtual controller in the page, and drivers that are processes of their own (row T-60). */
+/**
+ * What the dialog offers: brands with a virtual controller in the page, and drivers that are processes of their own
+ * (row T-60).
+ */
 export const DRIVER_LIST: readonly OfferedDriver[] = [
   ...DRIVER_KINDS.map(kind => ({
     id: kind.id,

@@ -22,7 +22,10 @@ export interface JogAxes {
 /** Whose axes those are: the base's, or the flange's as it stands when the jog begins, about the flange; or others. */
 export type JogFrame = "base" | "flange" | JogAxes;
 
-/** A jog key held for long ends this far inside a joint limit [rad], so that rounding in a controller does not refuse it. */
+/**
+ * A jog key held for long ends this far inside a joint limit [rad], so that rounding in a controller does not refuse
+ * it.
+ */
 const INSIDE_LIMIT_RAD = 1e-3;
 /** A held Cartesian jog goes no farther than this in one press [m, rad]. */
 const MAX_TRAVEL_M = 0.5;
@@ -93,8 +96,8 @@ export function shifted(
 }
 
 /**
- * Joint angles at the end of a straight jog of the flange, as far as the arm goes without a jump of a joint; null when it
- * goes nowhere.
+ * Joint angles at the end of a straight jog of the flange, as far as the arm goes without a jump of a joint; null when
+ * it goes nowhere.
  *
  * @param by  [m] along x, y, z; [rad] about them. ±Infinity for as far as one held press may go.
  * @param whole  Only the whole distance counts: a step is done or not done.

@@ -1,8 +1,14 @@
-/** What a robot's joints were during the last seconds, to be asked for any moment of them. Allocates nothing after it was made. */
+/**
+ * What a robot's joints were during the last seconds, to be asked for any moment of them. Allocates nothing after it
+ * was made.
+ */
 export interface PoseTrail {
   /** Times must not run backwards; such a sample begins anew. `q_rad` is read. */
   record(at_s: number, q_rad: ArrayLike<number>): void;
-  /** Joint angles of that moment, between two samples on the straight line. False before the first sample, and with none. */
+  /**
+   * Joint angles of that moment, between two samples on the straight line. False before the first sample, and with
+   * none.
+   */
   at(at_s: number, out_rad: Float64Array): boolean;
 }
 

@@ -115,7 +115,10 @@ const hostOf = (id: string) => {
   return place && hostAt(place);
 };
 
-/** Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where the cell's stands. */
+/**
+ * Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where
+ * the cell's stands.
+ */
 export async function addStation({
   brand,
   robot: robotId,
@@ -282,7 +285,10 @@ export async function runAll(despite: readonly string[] = []): Promise<void> {
 /** How each of a group ended, as its host said just before it answered. */
 const groupEnds = new Map<string, CommandOutcome>();
 
-/** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. */
+/**
+ * All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops
+ * all.
+ */
 export async function startSynchronized(
   ids: readonly string[],
   despite: readonly string[] = [],
@@ -580,7 +586,8 @@ function tellCell(): void {
 /** Listens to hosts as long as the page lives. STOP stops every station. */
 export function startStations(): void {
   onServers(take);
-  // While an object is dragged the cell changes with every frame; it is told at most this often, and as it is in the end.
+  // While an object is dragged the cell changes with every frame; it is told at most this often, and as it is in the
+  // end.
   cellStore.subscribe((state, before) => {
     if (!state.document || state.document === before.document) return;
     if (before.document && sameForGuards(state.document, before.document)) return;

@@ -7,9 +7,9 @@ import { stationLive } from "../robot/stations.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
 
 /**
- * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is under way
- * is waited for, since the verdict of what was there before says nothing of what is there now. A program without steps has
- * nothing to be checked.
+ * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is
+ * under way is waited for, since the verdict of what was there before says nothing of what is there now. A program
+ * without steps has nothing to be checked.
  *
  * @param proceed  is given the codes of the red findings that the person has seen and goes on in spite of.
  */
@@ -28,8 +28,8 @@ export function askBeforeRun(proceed: (despite: readonly string[]) => void): voi
 }
 
 /**
- * The same before a program goes to connected controllers. The check speaks of the cell's robot: a controller of another
- * model gets a program that was taught anew for it, which its own connection checks before it is sent.
+ * The same before a program goes to connected controllers. The check speaks of the cell's robot: a controller of
+ * another model gets a program that was taught anew for it, which its own connection checks before it is sent.
  */
 export function askBeforeSending(ids: readonly string[], proceed: (despite: readonly string[]) => void): void {
   const robot = cellStore.getState().document?.robot.id;

@@ -18,8 +18,8 @@ onStop(() => {
 });
 
 /**
- * Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. The text of the
- * cell is checked as its steps are, and a check that is not content asks first.
+ * Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. The text of
+ * the cell is checked as its steps are, and a check that is not content asks first.
  */
 export function runForeign(single: boolean): void {
   if (!run && foreignStore.getState().open?.ofCell === true) {

@@ -1,6 +1,9 @@
 const KEPT = 8192;
 
-/** How old the controller's samples were when the robot on screen stood as they say, and how many never came. Written in place. */
+/**
+ * How old the controller's samples were when the robot on screen stood as they say, and how many never came. Written in
+ * place.
+ */
 export class LinkMeter {
   readonly #ages_ms = new Float64Array(KEPT);
   #last = 0;

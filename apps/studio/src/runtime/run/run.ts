@@ -153,7 +153,10 @@ export interface CellControl {
     cellName: string,
     from?: Branch,
   ): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>>;
-  /** Begins a run that is handed over in parts, one after the other: a text with breakpoints. Refused while one is under way. */
+  /**
+   * Begins a run that is handed over in parts, one after the other: a text with breakpoints. Refused while one is under
+   * way.
+   */
   begin(program: string, cellName: string): RunSession | Exclude<CommandOutcome, { kind: "done" }>;
   stop(emergency?: boolean): void;
   reset(): CommandOutcome;
@@ -180,7 +183,9 @@ const NOT_BEGUN: Refusal = {
   sentence: "The run was stopped before it began.",
   hint: "Run it again when the way is clear.",
 };
-/** Robot and guard share the page: one that draws slowly is late with both, and there is no link between them to lose. */
+/**
+ * Robot and guard share the page: one that draws slowly is late with both, and there is no link between them to lose.
+ */
 const PAGE_SILENCE_S = Infinity;
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {

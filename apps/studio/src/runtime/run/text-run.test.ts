@@ -27,7 +27,9 @@ const noShelf: RunStorage = {
 };
 const worldFromBase: Pose<"world", "base"> = pose([0.3, -0.2, 0.5]);
 
-/** Written by hand, as another program would: six points by joint angles and by pose, a loop and a decision by an input. */
+/**
+ * Written by hand, as another program would: six points by joint angles and by pose, a loop and a decision by an input.
+ */
 const TEXT = `def elsewhere():
   set_tcp(p[0,0,0.1,0,0,0])
   movej([0.2,-1.4,1.5,-1.6,-1.5,0.3], a=1.4, v=1.0)

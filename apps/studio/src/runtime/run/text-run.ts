@@ -46,7 +46,8 @@ const STOPPED: Refusal = {
  * Interprets a text and carries it out in parts: a part ends before a line with a breakpoint, or after one statement.
  * Each statement is interpreted when the robot is there, so decisions see the signals of that moment.
  *
- * @param breakpoints  asked before every statement. @param tell  called when phase or line change. @param ended  called once.
+ * @param breakpoints  asked before every statement. @param tell  called when phase or line change. @param ended  called
+ *   once.
  */
 export function textRun(
   control: Pick<CellControl, "begin" | "signals" | "stop">,

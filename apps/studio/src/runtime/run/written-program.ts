@@ -1,6 +1,8 @@
 import { withBranches, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
 
-/** A program as it is exported and run: with the postures of its plan where the nearest ones would not do, and as text. */
+/**
+ * A program as it is exported and run: with the postures of its plan where the nearest ones would not do, and as text.
+ */
 export interface Written {
   readonly program: Program;
   /** null when no language speaks for the robot. */

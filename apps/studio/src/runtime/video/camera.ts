@@ -66,7 +66,10 @@ export async function listCameras(): Promise<{ readonly device: string; readonly
     .map(({ deviceId, label }, i) => ({ device: deviceId, name: label || `Camera ${i + 1}` }));
 }
 
-/** Runs a stream in an element of its own; `picture` is called with each new picture and when it was taken, by the page's clock [s]. */
+/**
+ * Runs a stream in an element of its own; `picture` is called with each new picture and when it was taken, by the
+ * page's clock [s].
+ */
 export function eachPicture(
   stream: MediaStream,
   picture: (video: HTMLVideoElement, captured_s: number) => void,

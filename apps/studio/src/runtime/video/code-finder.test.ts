@@ -24,7 +24,9 @@ interface Filming {
   readonly mirrored?: boolean;
   readonly seed?: number;
 }
-/** A screen with a code as a camera sees it: in perspective, in a room with dark and light things, blurred, with noise. */
+/**
+ * A screen with a code as a camera sees it: in perspective, in a room with dark and light things, blurred, with noise.
+ */
 function film(
   code: TimeCode,
   { corners, blur_px = 0, noise = 0, black = 20, white = 225, slope = 0, fading, mirrored = false, seed = 1 }: Filming,

@@ -2,8 +2,9 @@ import { findQuads, squareToQuad, type Quad } from "./quads.ts";
 import { CODE_CELLS, readCells, type TimeCode } from "./time-code.ts";
 
 /**
- * What a picture says. A camera that films a screen on which its own picture is shown sees several codes, smaller and older
- * ones in the picture within the picture. "mixed": a code is there, but two of them are seen at once, one fading into the next.
+ * What a picture says. A camera that films a screen on which its own picture is shown sees several codes, smaller and
+ * older ones in the picture within the picture. "mixed": a code is there, but two of them are seen at once, one fading
+ * into the next.
  */
 export type CodeSighting =
   | { readonly kind: "read"; readonly codes: readonly TimeCode[] }

@@ -10,8 +10,9 @@ export interface PictureTimes {
 }
 
 /**
- * How a picture stands to now. `age_s` is from the light on the sensor to the picture on screen, NaN where that is not known.
- * "late": what is seen was otherwise when it was seen. "still": nothing has come for `still_s`; the room may look quite different.
+ * How a picture stands to now. `age_s` is from the light on the sensor to the picture on screen, NaN where that is not
+ * known. "late": what is seen was otherwise when it was seen. "still": nothing has come for `still_s`; the room may
+ * look quite different.
  */
 export type Freshness =
   | { readonly kind: "none" }

@@ -1,6 +1,9 @@
 import { COUNTS, SESSIONS, type TimeCode } from "./time-code.ts";
 
-/** A code stays so long: a camera that looks for 1/30 s at a time then sees two of them at once in one picture of three [s]. */
+/**
+ * A code stays so long: a camera that looks for 1/30 s at a time then sees two of them at once in one picture of three
+ * [s].
+ */
 export const HOLD_S = 0.1;
 /** A picture that shows a code from before so many others is not counted: nobody steers by it. */
 const REMEMBERED = 128;
@@ -14,16 +17,20 @@ export interface LatencyFigures {
 }
 
 /**
- * Glass to glass on one clock: the page draws a code and remembers when; a camera films it; the first picture that comes
- * back with that code, once it is drawn, says how long everything together took. That the code was drawn before
- * it shone counts in full, that the picture was drawn before it shone does not: both take the same, so that the sum is right.
- * Counted is from a change in front of the camera to the first picture that shows it: half a picture's period is in it.
+ * Glass to glass on one clock: the page draws a code and remembers when; a camera films it; the first picture that
+ * comes back with that code, once it is drawn, says how long everything together took. That the code was drawn before
+ * it shone counts in full, that the picture was drawn before it shone does not: both take the same, so that the sum is
+ * right. Counted is from a change in front of the camera to the first picture that shows it: half a picture's period is
+ * in it.
  */
 export interface Measurement {
   readonly session: number;
   /** The code for this moment; the same until its time is over. */
   codeAt(now_s: number): TimeCode;
-  /** A picture, drawn at `drawn_s`, shows these codes, of which the newest counts. Returns its latency if it is the first to show it. */
+  /**
+   * A picture, drawn at `drawn_s`, shows these codes, of which the newest counts. Returns its latency if it is the
+   * first to show it.
+   */
   seen(codes: readonly TimeCode[], drawn_s: number): number | null;
   readonly figures: LatencyFigures | null;
 }

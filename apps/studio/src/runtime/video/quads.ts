@@ -5,8 +5,9 @@ const LEAST_SIDE_PX = 20;
 const LEAST_PIXELS = 150;
 
 /**
- * Dark patches of a picture that might be the frame of a code: those whose outline is about a quadrangle. The corners are
- * found as the farthest points: from the middle the first, from it the opposite one, and from their line one on either side.
+ * Dark patches of a picture that might be the frame of a code: those whose outline is about a quadrangle. The corners
+ * are found as the farthest points: from the middle the first, from it the opposite one, and from their line one on
+ * either side.
  *
  * @param gray       width · height brightnesses, row by row. Read only.
  * @param threshold  below it a pixel is dark.

@@ -5,13 +5,18 @@ const DATA_BITS = DATA_CELLS * DATA_CELLS;
 export const COUNTS = 1 << 16;
 export const SESSIONS = 1 << 8;
 
-/** What a code says: a number that counts up, and which measurement it belongs to, so that another screen in the picture is not taken for ours. */
+/**
+ * What a code says: a number that counts up, and which measurement it belongs to, so that another screen in the picture
+ * is not taken for ours.
+ */
 export interface TimeCode {
   readonly counter: number;
   readonly session: number;
 }
 
-/** CRC-12 of the two numbers, polynomial x¹² + x¹¹ + x³ + x² + x + 1, begun with ones so that an empty grid is no code. */
+/**
+ * CRC-12 of the two numbers, polynomial x¹² + x¹¹ + x³ + x² + x + 1, begun with ones so that an empty grid is no code.
+ */
 function checksum(counter: number, session: number): number {
   let crc = 0xfff;
   for (let bit = 23; bit >= 0; bit--) {
@@ -24,8 +29,8 @@ function checksum(counter: number, session: number): number {
 }
 
 /**
- * The grid of a code, row by row from the top left: 1 is black. A black frame about 36 bits, most significant first: 16 of
- * the counter, 8 of the session, 12 of checksum.
+ * The grid of a code, row by row from the top left: 1 is black. A black frame about 36 bits, most significant first: 16
+ * of the counter, 8 of the session, 12 of checksum.
  *
  * @param counter  0 … 65,535
  * @param session  0 … 255
@@ -40,7 +45,10 @@ export function codeCells({ counter, session }: TimeCode): Uint8Array {
   return cells;
 }
 
-/** Reads the inner cells, turned and mirrored in every way a camera may see them; null when no way has this session and the right checksum. */
+/**
+ * Reads the inner cells, turned and mirrored in every way a camera may see them; null when no way has this session and
+ * the right checksum.
+ */
 export function readCells(cells: ArrayLike<number>, wanted: number): TimeCode | null {
   for (let way = 0; way < 8; way++) {
     let counter = 0;

@@ -17,7 +17,9 @@ interface HeldArm {
   readonly trail: PoseTrail;
 }
 
-/** When the picture was taken by which the twin is held back, of the page's clock [s]; null while it is not held back. */
+/**
+ * When the picture was taken by which the twin is held back, of the page's clock [s]; null while it is not held back.
+ */
 export function heldAt_s(): number | null {
   const { heldBy } = videoStore.getState();
   const times = heldBy === null ? null : feedOf(heldBy)?.times;
@@ -25,8 +27,8 @@ export function heldAt_s(): number | null {
 }
 
 /**
- * Keeps what every robot looked like during the last seconds, while a camera is on, and shows it as it was when the picture
- * was taken if that is wished. Only what is drawn is held back: commands, limits, read-outs and STOP never are.
+ * Keeps what every robot looked like during the last seconds, while a camera is on, and shows it as it was when the
+ * picture was taken if that is wished. Only what is drawn is held back: commands, limits, read-outs and STOP never are.
  */
 export function startHoldingBack(): () => void {
   const arms = new Map<string, HeldArm>();

@@ -20,8 +20,8 @@ export function contentBounds(root: Object3D, document: CellDocument, out = new 
 const box = new Box3();
 
 /**
- * How far from the middle of a box the camera must be, looking along `direction`, for all eight corners to be inside the
- * picture. The margin leaves room for what lies over its rim.
+ * How far from the middle of a box the camera must be, looking along `direction`, for all eight corners to be inside
+ * the picture. The margin leaves room for what lies over its rim.
  */
 export function fitDistance(bounds: Box3, direction: Vector3, camera: PerspectiveCamera, margin = 1.17): number {
   const forward = direction.clone().normalize();

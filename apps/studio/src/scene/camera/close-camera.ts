@@ -9,9 +9,9 @@ const FREE_SIDE: Readonly<Vector3> = [CLOSE_OFFSET_M[0] / AWAY_M, CLOSE_OFFSET_M
 const UPRIGHT = 1e-6;
 
 /**
- * To which side of the TCP the camera stands. With an orientation aid it is a calibre (row N-46): it stands in the upright
- * plane of the aid, on the person's side, so that a tool at the aid's orientation is parallel to the upright edges of the
- * picture whatever the tilt, and one that leans is seen to lean.
+ * To which side of the TCP the camera stands. With an orientation aid it is a calibre (row N-46): it stands in the
+ * upright plane of the aid, on the person's side, so that a tool at the aid's orientation is parallel to the upright
+ * edges of the picture whatever the tilt, and one that leans is seen to lean.
  *
  * @param orientationPresetAxis  unit vector in the world, or null when no aid is chosen.
  * @param out      unit vector without height; written and returned.

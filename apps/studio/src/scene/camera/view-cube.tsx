@@ -4,7 +4,10 @@ import { WORDS } from "../words.ts";
 import type { CameraWishes } from "./controls.tsx";
 
 const { sides } = WORDS;
-/** Each face: its name, how it is turned in CSS, and the way the camera looks at it (scene coordinates; the robot faces +x). */
+/**
+ * Each face: its name, how it is turned in CSS, and the way the camera looks at it (scene coordinates; the robot faces
+ * +x).
+ */
 const FACES: readonly { readonly side: keyof typeof sides; readonly css: string; readonly way: Vector3 }[] = [
   { side: "right", css: "rotateY(0deg)", way: new Vector3(0, 0, -1) },
   { side: "front", css: "rotateY(90deg)", way: new Vector3(-1, 0, 0) },
@@ -14,7 +17,10 @@ const FACES: readonly { readonly side: keyof typeof sides; readonly css: string;
   { side: "bottom", css: "rotateX(-90deg) rotateZ(90deg)", way: new Vector3(-0.0004, 1, 0) },
 ];
 
-/** A cube that shows how the view stands and takes it to a side when clicked. Plain DOM: keyboard and screen reader work. */
+/**
+ * A cube that shows how the view stands and takes it to a side when clicked. Plain DOM: keyboard and screen reader
+ * work.
+ */
 export function ViewCube({
   cube,
   wishes,

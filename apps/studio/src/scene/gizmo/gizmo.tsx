@@ -26,8 +26,9 @@ const MODES = { move: "translate", turn: "rotate", scale: "scale" } as const;
 const LETTERS = ["X", "Y", "Z"] as const;
 
 /**
- * Handles on what is selected, to move, turn and scale it. While they are dragged the scene alone changes; letting go makes one
- * undo step. They hang on a pivot of their own in the group that holds the world, so that the axes are the world's.
+ * Handles on what is selected, to move, turn and scale it. While they are dragged the scene alone changes; letting go
+ * makes one undo step. They hang on a pivot of their own in the group that holds the world, so that the axes are the
+ * world's.
  */
 export default function Gizmo({
   world,
@@ -210,7 +211,10 @@ class Drag {
     return ([0, 1, 2] as const).filter(k => axis.includes(LETTERS[k]));
   }
 
-  /** A typed number: millimetres or degrees. Along an axis of the world it is the new coordinate, else the way since the start. */
+  /**
+   * A typed number: millimetres or degrees. Along an axis of the world it is the new coordinate, else the way since the
+   * start.
+   */
   private apply(value: number, fromStart: boolean): void {
     const [axis] = this.axes();
     if (axis === undefined) return;

@@ -53,7 +53,10 @@ export function takenOf(document: CellDocument, selection: SelectionState): Take
   return null;
 }
 
-/** Where the pivot comes to lie when it is moved to `after` along these axes of the world, with everything that it takes along. */
+/**
+ * Where the pivot comes to lie when it is moved to `after` along these axes of the world, with everything that it takes
+ * along.
+ */
 export function snapped(
   taken: Taken,
   after: Pose<"world", "pivot">,

@@ -1,4 +1,7 @@
-/** What a person types while a handle is dragged: a number takes the place of the drag; with a plus before it, it counts from the start. */
+/**
+ * What a person types while a handle is dragged: a number takes the place of the drag; with a plus before it, it counts
+ * from the start.
+ */
 export interface TypedNumber {
   readonly value: number;
   readonly fromStart: boolean;

@@ -112,7 +112,8 @@ function turned(grip: Grip, ray: Ray, axis: Vector3): number {
 }
 
 /**
- * A rigid grip in the hand: the tool tip keeps its place in the hand from the moment it was taken, so taking it moves nothing.
+ * A rigid grip in the hand: the tool tip keeps its place in the hand from the moment it was taken, so taking it moves
+ * nothing.
  *
  *   worldFromTcp = worldFromHand · (worldFromHand₀⁻¹ · worldFromTcp₀)
  */

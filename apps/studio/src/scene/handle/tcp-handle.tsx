@@ -21,7 +21,10 @@ export function handleAxes(worldFromTcp: Pose<"world", "tcp">): Pose<"world", "t
   return jogStore.getState().frame === "tool" ? worldFromTcp.quaternion : null;
 }
 
-/** Rings, arrows and squares at the tool tip that can be dragged. Drawn over everything, so that it can be taken from any side. */
+/**
+ * Rings, arrows and squares at the tool tip that can be dragged. Drawn over everything, so that it can be taken from
+ * any side.
+ */
 export function TcpHandle({
   interaction,
   shown,

@@ -23,7 +23,10 @@ const UPRIGHT = 0.7;
 const FLOOR = new Plane(new Vector3(0, 1, 0), 0);
 const GUIDE = "#ff6bb5";
 
-/** Takes parts that are dragged from the library into the view: a frame shows where one will stand, on the floor or on what is there. */
+/**
+ * Takes parts that are dragged from the library into the view: a frame shows where one will stand, on the floor or on
+ * what is there.
+ */
 export function PartDrop({ world }: { readonly world: RefObject<Group | null> }) {
   const gl = useThree(state => state.gl);
   const camera = useThree(state => state.camera);

@@ -5,8 +5,8 @@ const eye = new Vector3();
 const inverse = new Matrix4();
 
 /**
- * Whether a wall stands between the camera and the cell: the camera is on the other side of it than the middle of the cell.
- * The wall is a box; its thinnest side is its normal.
+ * Whether a wall stands between the camera and the cell: the camera is on the other side of it than the middle of the
+ * cell. The wall is a box; its thinnest side is its normal.
  */
 export function wallHides(
   wall: Object3D,

@@ -4,7 +4,10 @@ import { useRef } from "react";
 import type { Mesh } from "three";
 import { physicsNow } from "../../runtime/physics/physics.ts";
 
-/** The palm and the two fingers of a gripper, as far open as physics has them; wide open otherwise. In the frame of the flange. */
+/**
+ * The palm and the two fingers of a gripper, as far open as physics has them; wide open otherwise. In the frame of the
+ * flange.
+ */
 export function Fingers({
   tool,
   gripper,

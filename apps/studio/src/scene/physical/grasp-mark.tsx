@@ -8,8 +8,8 @@ import type { SceneTheme } from "../theme.ts";
 const SIZE_M = [0.034, 0.014] as const;
 
 /**
- * The mark on a work piece (row M-21): a small rectangle whose colour and height say whether the fingers touch or hold it. It is
- * seen through what stands before it, since a gripper hides what it holds.
+ * The mark on a work piece (row M-21): a small rectangle whose colour and height say whether the fingers touch or hold
+ * it. It is seen through what stands before it, since a gripper hides what it holds.
  */
 export function GraspMark({
   id,

@@ -8,7 +8,9 @@ import { selectionStore, type Thing } from "../../stores/selection.ts";
 import type { SceneTheme } from "../theme.ts";
 
 const edges = new WeakMap<BufferGeometry, LineSegmentsGeometry>();
-/** Faces that bend by more than this meet in a drawn edge [°]: the bevel of a box does, the side of a cylinder does not. */
+/**
+ * Faces that bend by more than this meet in a drawn edge [°]: the bevel of a box does, the side of a cylinder does not.
+ */
 const BEND_DEG = 15;
 
 /** Draws the edges of what is selected, and fainter of what is under the pointer, in the accent colour. */

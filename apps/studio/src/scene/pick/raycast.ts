@@ -14,7 +14,10 @@ const trees = new WeakMap<BufferGeometry, MeshBVH>();
 const objectFromWorld = new Matrix4();
 const local = new Ray();
 
-/** Raycasts through a tree of triangles that is built on the first look; only the nearest hit counts. For `mesh.raycast`. */
+/**
+ * Raycasts through a tree of triangles that is built on the first look; only the nearest hit counts. For
+ * `mesh.raycast`.
+ */
 export function raycastByTree(this: Mesh, raycaster: Raycaster, found: Intersection[]): void {
   let tree = trees.get(this.geometry);
   if (!tree) trees.set(this.geometry, (tree = new MeshBVH(this.geometry, { indirect: true })));

@@ -17,7 +17,10 @@ interface Props {
   readonly robot: Robot;
   readonly worldFromBase: Pose<"world", "base">;
   readonly live: () => ArmState;
-  /** Before the names of its links, so that no two robots have the same. The robot of the cell has none: it can be picked and touched. */
+  /**
+   * Before the names of its links, so that no two robots have the same. The robot of the cell has none: it can be
+   * picked and touched.
+   */
   readonly prefix?: string;
   /** Drawn see-through in that colour, without shadow: where the robot will be. */
   readonly ghost?: string;

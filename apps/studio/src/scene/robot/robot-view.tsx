@@ -8,8 +8,8 @@ import { ArmView } from "./arm-view.tsx";
 export const CLONE = "#b38cff";
 
 /**
- * The robot of the cell as it stands now, or as it stood when the picture was taken by which it is held back. While a connected robot
- * is programmed apart from its twin, it is the clone: a violet ghost.
+ * The robot of the cell as it stands now, or as it stood when the picture was taken by which it is held back. While a
+ * connected robot is programmed apart from its twin, it is the clone: a violet ghost.
  */
 export function RobotView(props: { readonly robot: Robot; readonly worldFromBase: Pose<"world", "base"> }) {
   const clone = useStore(connectionStore, isClone);

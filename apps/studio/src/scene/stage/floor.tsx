@@ -5,8 +5,8 @@ import type { SceneTheme } from "../theme.ts";
 const RADIUS_M = 11;
 
 /**
- * Large surfaces are shaded the cheap way: they fill the picture, and on a phone or without a graphics card every pixel counts.
- * The floor with its grid (0.25 m fine, 1 m bold), one draw call, fading into the distance.
+ * Large surfaces are shaded the cheap way: they fill the picture, and on a phone or without a graphics card every pixel
+ * counts. The floor with its grid (0.25 m fine, 1 m bold), one draw call, fading into the distance.
  */
 export function Floor({ theme }: { readonly theme: SceneTheme }) {
   const material = useMemo(() => floorMaterial(theme), [theme]);

@@ -5,7 +5,9 @@ import { tick } from "../../runtime/jog/jog-frames.ts";
 import type { Interaction } from "../interaction.ts";
 import { Grabber, type KeyAim } from "./grabber.ts";
 
-/** The hands of a headset, once a frame: the only part of the window's heartbeat that goes on while a headset is worn. */
+/**
+ * The hands of a headset, once a frame: the only part of the window's heartbeat that goes on while a headset is worn.
+ */
 export function Grab({
   interaction,
   keys,

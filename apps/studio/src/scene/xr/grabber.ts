@@ -34,9 +34,9 @@ interface Taken {
 }
 
 /**
- * Takes the tool by squeezing, pinching or pointing, and carries it as if it were fixed in the hand. Every press takes it
- * anew where it is then, so that pressing moves nothing (row L-29). Driven by the poses of the frame alone: no pointer can be
- * left captured, so entering or leaving a headset in mid drag loses nothing.
+ * Takes the tool by squeezing, pinching or pointing, and carries it as if it were fixed in the hand. Every press takes
+ * it anew where it is then, so that pressing moves nothing (row L-29). Driven by the poses of the frame alone: no
+ * pointer can be left captured, so entering or leaving a headset in mid drag loses nothing.
  */
 export class Grabber {
   readonly #interaction: Interaction;

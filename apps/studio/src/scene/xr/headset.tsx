@@ -103,7 +103,10 @@ function Room({ keys }: { readonly keys: KeyAim }) {
   );
 }
 
-/** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. Who has no left hand finds it standing beside. */
+/**
+ * The panel rides on the left hand: above a controller, or on the inside of a bare wrist. Who has no left hand finds it
+ * standing beside.
+ */
 function Menu({ keys }: { readonly keys: KeyAim }) {
   const controller = useXRInputSourceState("controller", "left");
   const hand = useXRInputSourceState("hand", "left");

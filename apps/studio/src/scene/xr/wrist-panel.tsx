@@ -142,7 +142,9 @@ function State() {
   );
 }
 
-/** The last thing that went wrong: in the room nobody sees the notices of the page, nor the cards of other controllers. */
+/**
+ * The last thing that went wrong: in the room nobody sees the notices of the page, nor the cards of other controllers.
+ */
 function Said() {
   const notice = useStore(
     noticeStore,

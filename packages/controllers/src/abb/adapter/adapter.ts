@@ -61,9 +61,9 @@ const SIGNALS = "/rw/iosystem/signals";
 const JOINTS = "/rw/motionsystem/mechunits/ROB_1/jointtarget";
 
 /**
- * An ABB controller over both of its interfaces: motions are guided by EGM, everything else (motors, mode, programs, signals,
- * files) goes over Robot Web Services 1.0. While EGM is silent states come from there. When either line is lost in the middle of a
- * motion the robot is stopped over the other one, and both are opened anew.
+ * An ABB controller over both of its interfaces: motions are guided by EGM, everything else (motors, mode, programs,
+ * signals, files) goes over Robot Web Services 1.0. While EGM is silent states come from there. When either line is
+ * lost in the middle of a motion the robot is stopped over the other one, and both are opened anew.
  */
 export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;

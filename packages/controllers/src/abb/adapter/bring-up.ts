@@ -21,7 +21,10 @@ export interface BringUpOptions {
 const PATIENCE_S = 3;
 const LOOK_S = 0.02;
 
-/** What a person does after a stop: motors on, program pointer to main, the program started. In manual mode all that is the pendant's. */
+/**
+ * What a person does after a stop: motors on, program pointer to main, the program started. In manual mode all that is
+ * the pendant's.
+ */
 export async function bringUp({
   client,
   panel,

@@ -16,7 +16,10 @@ import {
 import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbAdapter, type AbbAdapterOptions } from "./index.ts";
 
-/** Joint moves in degrees, signals and faults of a module: enough to show that a controller executes what it is handed. RAPID itself is read in the apps' tests. */
+/**
+ * Joint moves in degrees, signals and faults of a module: enough to show that a controller executes what it is handed.
+ * RAPID itself is read in the apps' tests.
+ */
 function interpret(text: string): Interpreted {
   const lines = text.split("\n");
   const wrong = lines.findIndex(line => line.includes("nonsense"));

@@ -14,7 +14,10 @@ const OPEN_S = 3;
 const LOOK_S = 0.01;
 const ANSWER_S = 0.1;
 
-/** A controller over Externally Guided Motion alone, as where Robot Web Services are not those of RobotWare 6: nothing of it is switched from here. */
+/**
+ * A controller over Externally Guided Motion alone, as where Robot Web Services are not those of RobotWare 6: nothing
+ * of it is switched from here.
+ */
 export function abbEgmAdapter(options: AbbEgmAdapterOptions): ControllerAdapter {
   const { robot, scheduler, host } = options;
   const n = robot.arm.joints.length;

@@ -22,7 +22,10 @@ export interface SetpointStreamOptions {
   readonly host: string;
   /** Where the controller sends to. */
   readonly ports?: { readonly egm?: number };
-  /** Where to listen. Left out: everywhere, or at the controller's own address when that is one of this machine, so that several virtual ones have a port each. */
+  /**
+   * Where to listen. Left out: everywhere, or at the controller's own address when that is one of this machine, so that
+   * several virtual ones have a port each.
+   */
   readonly local?: string;
   /** Part of the robot's own joint speeds that 100 % stands for. */
   readonly maxSpeed?: number;
@@ -70,7 +73,10 @@ interface Going {
   stopping: Refusal | null;
 }
 
-/** Externally Guided Motion: the path is made here and told cycle by cycle, in answer to each state that the controller sends. */
+/**
+ * Externally Guided Motion: the path is made here and told cycle by cycle, in answer to each state that the controller
+ * sends.
+ */
 export function createSetpointStream(options: SetpointStreamOptions): SetpointStream {
   const { robot, scheduler, network, host } = options;
   const n = robot.arm.joints.length;
@@ -147,7 +153,8 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
     events?.state(message, message.axes);
     // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
     if (!socket || (severed && going === null)) return;
-    // Who does not listen is not answered: an answer that is late would be the first target of a program that has just begun to listen.
+    // Who does not listen is not answered: an answer that is late would be the first target of a program that has just
+    // begun to listen.
     if (because !== "") return;
     advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
     answer.sequence = told = (told + 1) >>> 0;

@@ -76,7 +76,10 @@ const LOOK_S = 0.1;
 /** A login and a connection that ended between two requests may each cost one more try. */
 const MOST_TRIES = 3;
 
-/** One connection to Robot Web Services: a request at a time, in order; opened again when the controller has ended it between two of them. */
+/**
+ * One connection to Robot Web Services: a request at a time, in order; opened again when the controller has ended it
+ * between two of them.
+ */
 export class RwsClient {
   private readonly options: RwsClientOptions;
   private readonly stopLooking: () => void;

@@ -1,4 +1,7 @@
-/** Counts and times of samples that come from two sources in turn: EGM counts and dates its own, states that were asked for are counted and dated here. */
+/**
+ * Counts and times of samples that come from two sources in turn: EGM counts and dates its own, states that were asked
+ * for are counted and dated here.
+ */
 export class SampleClock {
   sequence = 0;
   time_s = 0;
@@ -14,7 +17,10 @@ export class SampleClock {
     this.now_s = now_s;
   }
 
-  /** One of EGM. A controller that booted, or that was silent, goes on where the others ended; what was overtaken on its way still counts as older. */
+  /**
+   * One of EGM. A controller that booted, or that was silent, goes on where the others ended; what was overtaken on its
+   * way still counts as older.
+   */
   theirs(sequence: number, time_ms: number): void {
     if (!this.isTheirs || time_ms < this.last_ms - BOOTED_MS) {
       this.base = this.last + 1 - sequence;

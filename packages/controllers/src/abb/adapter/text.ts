@@ -6,7 +6,10 @@ import type { PanelState } from "./rws-state.ts";
 import { noModule, refusedThere, wasStopped } from "./words.ts";
 import { DONE, stopped } from "../../outcomes.ts";
 
-/** A text from its being handed over to its end. A stop counts from the beginning, and ends it also before it was started. */
+/**
+ * A text from its being handed over to its end. A stop counts from the beginning, and ends it also before it was
+ * started.
+ */
 export interface TextRun {
   readonly handed: Promise<UploadedProgram>;
   stop(): void;
@@ -36,8 +39,8 @@ const wrong = (what: string, reply: RwsReply): Refusal | null =>
   reply.kind === "answer" ? null : refusedThere(what, reply.sentence);
 
 /**
- * The program that waits for targets has its place again; whether it is started is for who calls. Why not, or null: another
- * program is never taken for it.
+ * The program that waits for targets has its place again; whether it is started is for who calls. Why not, or null:
+ * another program is never taken for it.
  */
 export async function putBack(client: RwsClient, left: Set<string>): Promise<Refusal | null> {
   const modules = await client.get(`/rw/rapid/modules?task=${TASK}`);
@@ -60,12 +63,14 @@ export async function putBack(client: RwsClient, left: Set<string>): Promise<Ref
 }
 
 /**
- * Puts modules on the controller and loads them in the place of the program that waits for targets; started, they run once from
- * PROC main to their end. That program has its place again then. Mastership of RAPID is held all the time.
+ * Puts modules on the controller and loads them in the place of the program that waits for targets; started, they run
+ * once from PROC main to their end. That program has its place again then. Mastership of RAPID is held all the time.
  *
- * @param left  modules of texts that are on the controller, kept by who calls: what could not be taken away now is taken away later.
+ * @param left  modules of texts that are on the controller, kept by who calls: what could not be taken away now is
+ *   taken away later.
  * @param isMoving  by the last state: what comes next begins when the robot has come to rest.
- * @param over  called when it has its place again; `well` unless the controller itself stopped the text, which a person looks at first.
+ * @param over  called when it has its place again; `well` unless the controller itself stopped the text, which a person
+ *   looks at first.
  */
 export function handRapid(
   files: readonly EmittedFile[],

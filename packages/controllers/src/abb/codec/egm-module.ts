@@ -1,8 +1,14 @@
-/** The program that waits for targets, as it stands on a controller: motions that are guided from here need it there and running. */
+/**
+ * The program that waits for targets, as it stands on a controller: motions that are guided from here need it there and
+ * running.
+ */
 export const EGM_MODULE = "TwincellEGM";
 export const EGM_FILE = `${EGM_MODULE}.mod`;
 
-/** For a controller whose transmission protocol (UCdevice) is called UCdevice1. Takes joint targets until they fail to come for a second. */
+/**
+ * For a controller whose transmission protocol (UCdevice) is called UCdevice1. Takes joint targets until they fail to
+ * come for a second.
+ */
 export const EGM_TEXT = `MODULE ${EGM_MODULE}
   VAR egmident twincell_id;
   PROC main()

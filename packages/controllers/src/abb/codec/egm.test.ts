@@ -3,7 +3,8 @@ import { describe, expect, test } from "vitest";
 import { egmRobotWriter, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot, readEgmSensor } from "./index.ts";
 
 const bytes = (text: string): Uint8Array => Uint8Array.from(text.trim().split(/\s+/), value => parseInt(value, 16));
-// Written out from the description of the messages: sizes in one byte, doubles one by one. 45° is 40 46 80 …, -90° is C0 56 80 ….
+// Written out from the description of the messages: sizes in one byte, doubles one by one. 45° is 40 46 80 …, -90° is
+// C0 56 80 ….
 const ROBOT = bytes(`0A 08 08 07 10 A0 9C 01 18 02
   12 38 0A 36 09 00 00 00 00 00 80 46 40 09 00 00 00 00 00 80 56 C0 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 F0 3F
   22 02 08 01 2A 02 08 03 30 01 42 02 08 02`);
@@ -29,7 +30,8 @@ describe("EGM against bytes written out by hand", () => {
   test("Cartesian values of feedback and plan: place [mm], then u0 … u3; a part of them is none", () => {
     const double = (value: number): string =>
       [...new Uint8Array(Float64Array.of(value).buffer)].map(byte => byte.toString(16).padStart(2, "0")).join(" ");
-    // Inside 12 (feedback) or 1A (plan): joints 0A 09 09 <8>, Cartesian 12: place 0A 1B 09 x 11 y 19 z, orientation 12 24 09 u0 11 u1 19 u2 21 u3.
+    // Inside 12 (feedback) or 1A (plan): joints 0A 09 09 <8>, Cartesian 12: place 0A 1B 09 x 11 y 19 z, orientation 12
+    // 24 09 u0 11 u1 19 u2 21 u3.
     const place = (x: number, y: number, z: number): string => `0A 1B 09 ${double(x)} 11 ${double(y)} 19 ${double(z)}`;
     const turn = `12 24 09 ${double(0.5)} 11 ${double(-0.5)} 19 ${double(0.5)} 21 ${double(0.5)}`;
     const part = (key: string, cartesian: string, size: string, whole: string): string =>

@@ -117,7 +117,10 @@ function readNumbers(bytes: Uint8Array, from: number, to: number, out: Float64Ar
   return isWhole && out.every(value => Number.isFinite(value));
 }
 
-/** The Cartesian part of a position, if it has one: place and quaternion. Euler angles, which some send besides, say the same. */
+/**
+ * The Cartesian part of a position, if it has one: place and quaternion. Euler angles, which some send besides, say the
+ * same.
+ */
 function readPose(bytes: Uint8Array, from: number, to: number, out: EgmPose): void {
   out.known = false;
   let hasPlace = false;
@@ -141,7 +144,10 @@ function readEnum(bytes: Uint8Array, from: number, to: number): number {
   return value;
 }
 
-/** Reads what a controller sent into `out`; one sentence when it is nothing of the kind, and `out` may then be half filled. */
+/**
+ * Reads what a controller sent into `out`; one sentence when it is nothing of the kind, and `out` may then be half
+ * filled.
+ */
 export function readEgmRobot(bytes: Uint8Array, out: EgmRobot): string | null {
   let hasHeader = false;
   let isRobot = false;

@@ -1,4 +1,7 @@
-/** The few rules of protobuf's wire format that EGM needs. Numbers are little-endian; a field is its number, its kind and its value. */
+/**
+ * The few rules of protobuf's wire format that EGM needs. Numbers are little-endian; a field is its number, its kind
+ * and its value.
+ */
 export const VARINT = 0;
 export const DOUBLE = 1;
 export const BYTES = 2;
@@ -7,7 +10,10 @@ export const FLOAT = 5;
 /** A value met while reading: of a varint its number, of a double its number, of bytes where they are. */
 export type PendantVisitor = (field: number, kind: number, value: number, from: number, to: number) => void;
 
-/** Calls `visit` for each field from `from` to `to`; false when the bytes end in the middle of one or have a kind that nobody uses. */
+/**
+ * Calls `visit` for each field from `from` to `to`; false when the bytes end in the middle of one or have a kind that
+ * nobody uses.
+ */
 export function readFields(bytes: Uint8Array, from: number, to: number, visit: PendantVisitor): boolean {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = from;
@@ -87,7 +93,8 @@ export class FieldWriter {
   inside(field: number, write: () => void): void {
     this.bytes[this.at++] = field * 8 + BYTES;
     const sizeAt = this.at;
-    // Two bytes for the size, the first of which says that another follows: any size below 16384 fits without moving what comes behind.
+    // Two bytes for the size, the first of which says that another follows: any size below 16384 fits without moving
+    // what comes behind.
     this.at += 2;
     write();
     const size = this.at - sizeAt - 2;

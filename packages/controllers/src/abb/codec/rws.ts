@@ -128,7 +128,10 @@ export function readJoints(fields: Readonly<Record<string, string>>, out: Float6
   return count;
 }
 
-/** Whether what a controller calls its robot, "IRB 120-3/0.6", is that one of the library, "ABB IRB 120-3/0.6". Either may leave out the end. */
+/**
+ * Whether what a controller calls its robot, "IRB 120-3/0.6", is that one of the library, "ABB IRB 120-3/0.6". Either
+ * may leave out the end.
+ */
 export function isAbbModel(name: string, said: string): boolean {
   const plain = (text: string): string =>
     text

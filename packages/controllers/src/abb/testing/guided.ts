@@ -92,7 +92,9 @@ export async function errorEndsTheMotion(
   expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
 }
 
-/** Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last state is to where the pendant's jog ended. */
+/**
+ * Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last state is to where the pendant's jog ended.
+ */
 export async function followsThePendant(
   { real, virtual, carryOut, scheduler, heard }: StreamingBench,
   told_s: number,
@@ -150,7 +152,10 @@ export async function keepsToTheLine(
   }
 }
 
-/** Rows T-46, T-47 and X-41: everything cut, noticed within 100 ms; the robot stops by itself within its time-out and braking time, and stays. */
+/**
+ * Rows T-46, T-47 and X-41: everything cut, noticed within 100 ms; the robot stops by itself within its time-out and
+ * braking time, and stays.
+ */
 export async function stopsWhenCutOff({ real, network, virtual, scheduler }: StreamingBench): Promise<void> {
   const moving = real.moveJoints(AROUND);
   await scheduler.elapse(0.3);

@@ -12,7 +12,9 @@ export type Key = Extract<OpMode, "AUTO" | "MANR" | "MANF">;
 
 const MOST_EVENTS = 200;
 
-/** Key, motors, stops, speed and the log of a controller. What takes the robot from its program is told to who runs it. */
+/**
+ * Key, motors, stops, speed and the log of a controller. What takes the robot from its program is told to who runs it.
+ */
 export class VirtualPendant {
   private readonly now_s: () => number;
   private readonly stopped: (because: string) => void;

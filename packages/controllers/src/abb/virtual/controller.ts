@@ -43,7 +43,10 @@ export interface VirtualAbbOptions {
   /** Told once about each kind of datagram that is no target, and of request that is none. */
   readonly log?: (sentence: string) => void;
 }
-/** The cabinet as a person stands before it. The program that waits for targets runs while motors are on, the key is not in manual and nothing is wrong. */
+/**
+ * The cabinet as a person stands before it. The program that waits for targets runs while motors are on, the key is not
+ * in manual and nothing is wrong.
+ */
 export interface AbbPendant {
   /** Away from manual also means: motors on, program started, as a person does it there. */
   setMode(mode: OperatingMode): void;
@@ -86,7 +89,9 @@ export type AbbStart =
 const LONGEST_CYCLE_S = 0.04;
 const GAIN_PER_S = 20;
 
-/** A controller of numbers: it is guided from outside over EGM, and served over Robot Web Services where it has them. */
+/**
+ * A controller of numbers: it is guided from outside over EGM, and served over Robot Web Services where it has them.
+ */
 export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbStart> {
   const { robot, scheduler, network, host } = options;
   const cycle_s = options.cycle_s ?? EGM_CYCLE_S;

@@ -28,7 +28,10 @@ const CONVERGED_DEG = 0.01;
 /** Beyond its limit a target is a fault; rounding is none [rad]. */
 const SLACK_RAD = 1e-7;
 
-/** Motion that is guided from outside: tells where the robot is, goes where it is told, with a lag, until targets fail to come. */
+/**
+ * Motion that is guided from outside: tells where the robot is, goes where it is told, with a lag, until targets fail
+ * to come.
+ */
 export class EgmMotion {
   readonly q_rad: Float64Array;
   /** Why it ended last, or "". */
@@ -142,7 +145,9 @@ export class EgmMotion {
     this.options.socket.send(this.write(out), this.options.to);
   }
 
-  /** The flange (tool0) in the base frame (wobj0), as EGM tells it that was set up with neither tool nor work object. */
+  /**
+   * The flange (tool0) in the base frame (wobj0), as EGM tells it that was set up with neither tool nor work object.
+   */
   private tellPose(q_rad: Float64Array, to: EgmPose): void {
     const {
       position: [x, y, z],

@@ -3,7 +3,10 @@ const MOST_FILES = 2_000;
 /** Folders a controller has from the beginning. */
 export const FOLDERS = ["$HOME", "$TEMP", "$RAMDISK"] as const;
 
-/** Files of a controller by their paths below `$HOME` and its like; kept over a restart. Small and capital letters are the same. */
+/**
+ * Files of a controller by their paths below `$HOME` and its like; kept over a restart. Small and capital letters are
+ * the same.
+ */
 export class Files {
   private readonly files = new Map<string, { readonly path: readonly string[]; readonly bytes: Uint8Array }>();
   private held = 0;

@@ -12,7 +12,10 @@ const GRIPPER = "doGripper";
 const EACH = 8;
 const MOST_LINES = 500;
 
-/** The lines of a controller by the names of its configuration; small and capital letters are the same. A text brings its own with it. */
+/**
+ * The lines of a controller by the names of its configuration; small and capital letters are the same. A text brings
+ * its own with it.
+ */
 export class Lines {
   private readonly arm: VirtualController;
   private readonly known = new Map<string, { readonly name: string; readonly kind: LineKind }>();

@@ -17,7 +17,10 @@ const MOST_MODULES = 100;
 const NAME = /^\s*MODULE\s+([A-Za-z][A-Za-z0-9_]{0,31})\b/im;
 const MAIN = /^\s*PROC\s+main\s*\(/im;
 
-/** The modules of the one task, its program pointer, and the text that is being executed. Why something cannot be is a sentence; null when it was done. */
+/**
+ * The modules of the one task, its program pointer, and the text that is being executed. Why something cannot be is a
+ * sentence; null when it was done.
+ */
 export class Programs {
   private readonly arm: VirtualController;
   private readonly cabinet: VirtualPendant;

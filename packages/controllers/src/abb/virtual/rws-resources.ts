@@ -44,7 +44,10 @@ const state = (type: string, title: string, fields: Readonly<Record<string, stri
 /** Null is well. */
 const orRefused = (why: string | null): Answer => (why === null ? DONE : no(403, why));
 
-/** The resources of a controller: `answer(session, request)`. What needs a person's or another client's leave is refused without it. */
+/**
+ * The resources of a controller: `answer(session, request)`. What needs a person's or another client's leave is refused
+ * without it.
+ */
 export function createResources(
   options: ResourceOptions,
   sessions: Sessions,

@@ -96,7 +96,10 @@ const VERSION = { MajorVersion: 5, MinorVersion: 0 } as const;
 const KEEP_ALIVE_S = 5;
 const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
 
-/** A FANUC controller of numbers behind its Remote Motion Interface: one client, eight instructions waiting, servos, pendant, fence. */
+/**
+ * A FANUC controller of numbers behind its Remote Motion Interface: one client, eight instructions waiting, servos,
+ * pendant, fence.
+ */
 export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<FanucStarted> {
   const { robot, scheduler, network, host } = options;
   const joints = options.joints ?? fanucJoints(robot);
@@ -399,7 +402,8 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
           send({ key, name, fields: { ErrorID: RMI_ERROR.command } }, stream);
           return true;
         }
-        // A client that went without a word holds its place until the system notices; when another asks, so long a silence is taken for that.
+        // A client that went without a word holds its place until the system notices; when another asks, so long a
+        // silence is taken for that.
         if (session && scheduler.now_s() - heard_s > KEEP_ALIVE_S) {
           session.close();
           session = null;

@@ -20,7 +20,10 @@ const MOST_UNKNOWN = 20;
 const MOST_LOGGED = 100;
 const LETTERS = 8192;
 
-/** The files of a virtual controller: the device MD: with its programs as listings. Whoever sends what is no line is logged once and cut off. */
+/**
+ * The files of a virtual controller: the device MD: with its programs as listings. Whoever sends what is no line is
+ * logged once and cut off.
+ */
 export async function serveFtp(options: FtpServerOptions): Promise<FtpServer> {
   const open = new Set<() => void>();
   const logged = new Set<string>();

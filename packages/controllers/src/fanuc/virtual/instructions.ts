@@ -20,7 +20,10 @@ export type Instruction =
 const PLACE = ["X", "Y", "Z", "W", "P", "R"] as const;
 const error = (id: number): Instruction => ({ kind: "error", id });
 
-/** What an instruction makes the arm do; its target may count from where the arm then stands. Passing a point (CNT, CR) ends at it. */
+/**
+ * What an instruction makes the arm do; its target may count from where the arm then stands. Passing a point (CNT, CR)
+ * ends at it.
+ */
 export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints: FanucJoints): Instruction {
   switch (name) {
     case "FRC_WaitTime": {
@@ -82,7 +85,8 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
           const at: Pose = name === "FRC_LinearRelative" ? moved(robot, q_rad, v) : there;
           const q = asked && isJoint ? jointsIn(robot, at as Pose<"base", "flange">, asked, q_rad) : undefined;
           if (q) return { ...speed, path: "ptp", target: { q } };
-          // The base is the world here, and the flange its tool. A line arrives in the posture that it is asked for, or not at all.
+          // The base is the world here, and the flange its tool. A line arrives in the posture that it is asked for, or
+          // not at all.
           return {
             ...speed,
             path: isJoint ? "ptp" : "lin",

@@ -57,10 +57,10 @@ const LOOK_S = 0.02;
 const ON_PATH_S = 0.3;
 
 /**
- * A KUKA controller over the variables of its proxy: states by one question for all of them, motions by the globals of the
- * program TWINCELL. The protocol knows no stop, no drives and no watchdog: stop and lock are globals of that program, which
- * brakes by interrupt and whose timer is the watchdog. An emergency stop locks the program; it takes the drives off where the
- * cell has wired an output for that, and says nothing to them elsewhere.
+ * A KUKA controller over the variables of its proxy: states by one question for all of them, motions by the globals of
+ * the program TWINCELL. The protocol knows no stop, no drives and no watchdog: stop and lock are globals of that
+ * program, which brakes by interrupt and whose timer is the watchdog. An emergency stop locks the program; it takes the
+ * drives off where the cell has wired an output for that, and says nothing to them elsewhere.
  */
 export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
@@ -266,7 +266,8 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       const mine: Waiting = { number: (now.command + 1) & 0x7fffffff, resolve, taken: false, cancelled: false };
       waiting = mine;
       void (async () => {
-        // The number that starts the motion goes out only when everything else has arrived: an old target is never driven to.
+        // The number that starts the motion goes out only when everything else has arrived: an old target is never
+        // driven to.
         const taken = await own.write(orders(motion));
         if (waiting !== mine) return;
         if (mine.cancelled || !taken) {
@@ -283,7 +284,10 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
     });
   }
 
-  /** A person's word that it may go on: what is left of a motion is taken back, the lock opened, messages confirmed, the program started. */
+  /**
+   * A person's word that it may go on: what is left of a motion is taken back, the lock opened, messages confirmed, the
+   * program started.
+   */
   async function reset(): Promise<CommandOutcome> {
     const own = client;
     const now = state;

@@ -28,7 +28,10 @@ interface Streaming {
 
 /** Nothing over RSI for so long: it does not run [s]. */
 const SILENT_S = 0.05;
-/** At the end of a motion the robot stands so near to its target [°], or is brought there, so often at most, at this share of its speed. */
+/**
+ * At the end of a motion the robot stands so near to its target [°], or is brought there, so often at most, at this
+ * share of its speed.
+ */
 const NEAR_DEG = 5e-4;
 const MOST_AGAIN = 10;
 const REST_RATIO = 0.2;
@@ -39,9 +42,9 @@ const NOTHING = { tools: {}, frames: {} };
 const STANDS_DEG = 2e-5;
 
 /**
- * A KUKA controller moved by RSI: the path is made here, cycle by cycle, and goes out as increments of the axes; what is lost on
- * the way is made good at the end. States come with every telegram; mode, stops and drives over the variables, as without RSI.
- * When answers stay away the controller itself ends RSI and stops the robot.
+ * A KUKA controller moved by RSI: the path is made here, cycle by cycle, and goes out as increments of the axes; what
+ * is lost on the way is made good at the end. States come with every telegram; mode, stops and drives over the
+ * variables, as without RSI. When answers stay away the controller itself ends RSI and stops the robot.
  */
 export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, config } = options;

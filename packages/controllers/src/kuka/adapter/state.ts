@@ -4,7 +4,10 @@ import type { C3Item } from "../codec-c3-replies.ts";
 import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
 import { TWC } from "../loop.ts";
 
-/** Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The lines in and out that somebody wants to see follow. */
+/**
+ * Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The
+ * lines in and out that somebody wants to see follow.
+ */
 export const POLLED: readonly string[] = [
   TWC.done,
   TWC.command,
@@ -74,7 +77,8 @@ export class KukaState {
 
   /**
    * @param now_s  the time here, for a controller that has no timer.
-   * @returns whether it is a new state: a controller whose clock stands still says nothing new. Null when an axis or a state cannot be read.
+   * @returns whether it is a new state: a controller whose clock stands still says nothing new. Null when an axis or a
+   *   state cannot be read.
    */
   take(items: readonly C3Item[], now_s: number): boolean | null {
     const text = (i: number): string => (items[i]?.error === 1 ? items[i].value : "");

@@ -15,7 +15,10 @@ export interface RunningText {
   stop(): void;
 }
 
-/** Writes a module to the controller and selects it in the place of the running program; the name under which it then stands there. */
+/**
+ * Writes a module to the controller and selects it in the place of the running program; the name under which it then
+ * stands there.
+ */
 export async function handKrl(
   files: readonly EmittedFile[],
   client: C3Client,
@@ -33,8 +36,8 @@ export async function handKrl(
 }
 
 /**
- * Starts the selected module and waits for its end. The first motion runs to the path at reduced speed; where the controller then asks
- * for a second start it gets it, as part of the same command.
+ * Starts the selected module and waits for its end. The first motion runs to the path at reduced speed; where the
+ * controller then asks for a second start it gets it, as part of the same command.
  */
 export function runKrl(
   name: string,

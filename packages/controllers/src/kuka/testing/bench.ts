@@ -14,7 +14,10 @@ import {
 export const KR6: Robot = robotById("kuka_kr6r900sixx")!;
 export const HOST = "127.0.0.3";
 
-/** A text of one joint move a line, in degrees: enough to show that a controller executes what it is handed. KRL itself is read in the apps' tests. */
+/**
+ * A text of one joint move a line, in degrees: enough to show that a controller executes what it is handed. KRL itself
+ * is read in the apps' tests.
+ */
 export function interpretMoves(text: string): Interpreted {
   const lines = text.split(/\r?\n/);
   const faulty = lines.findIndex(line => line !== "" && !/^(DEF.*|END|PTP( -?[0-9.]+){6})$/.test(line));

@@ -128,7 +128,8 @@ describe("variables on the wire, byte for byte", () => {
     expect(read("$AXIS_ACT")).toBe(
       "{E6AXIS: A1 0.0, A2 -90.0, A3 90.0, A4 0.0, A5 90.0, A6 0.0, E1 0.0, E2 0.0, E3 0.0, E4 0.0, E5 0.0, E6 0.0}",
     );
-    // Upper arm upright, forearm level, wrist bent down: X = 25 + 420 mm, Z = 400 + 455 + 35 − 80 mm; A2 is the only negative axis.
+    // Upper arm upright, forearm level, wrist bent down: X = 25 + 420 mm, Z = 400 + 455 + 35 − 80 mm; A2 is the only
+    // negative axis.
     expect(read("$POS_ACT")).toMatch(/^\{E6POS: X 445\.0, Y .*, Z 810\.0, A .*, B .*, C .*, S 2, T 2, E1 0\.0/);
     expect(read("TWC_AXIS").length).toBeLessThan(256 - 10);
   });
@@ -232,7 +233,8 @@ describe("mode, drives, stops, messages", () => {
     expect(kuka.arm.jointAngles()).toEqual(rest);
     expect(kuka.pendant.start()).toBeNull();
     await scheduler.elapse(2);
-    // The controller goes on with the motion it was stopped in; the timer of our program has run out meanwhile and takes it back.
+    // The controller goes on with the motion it was stopped in; the timer of our program has run out meanwhile and
+    // takes it back.
     expect([read("TWC_DONE"), read("TWC_RESULT")]).toEqual(["1", "4"]);
     expect(Math.abs(kuka.arm.jointAngle(1) - rest[0]!)).toBeLessThan(0.01);
   });

@@ -39,7 +39,10 @@ export interface VirtualKukaOptions {
   readonly digits?: number;
   /** Further global variables: name, type, value. */
   readonly globals?: readonly (readonly [string, GlobalType, string])[];
-  /** Outputs that the cell has wired to $DRIVES_ON and, inverted, to $DRIVES_OFF; those of the example when left out, null for none. */
+  /**
+   * Outputs that the cell has wired to $DRIVES_ON and, inverted, to $DRIVES_OFF; those of the example when left out,
+   * null for none.
+   */
   readonly wiring?: { readonly drivesOn: number; readonly drivesOff: number } | null;
   /** RobotSensorInterface, under the program TWINCELL_RSI; without it the controller has none. */
   readonly rsi?: RsiOptions;
@@ -96,8 +99,8 @@ export interface VirtualKuka {
 }
 
 /**
- * A KUKA controller of numbers: mode key, drives, stops, messages, programs, variables over TCP 7000 and discovery over UDP
- * 6999 and 7000. Refuses an arm whose axes are not known (RangeError).
+ * A KUKA controller of numbers: mode key, drives, stops, messages, programs, variables over TCP 7000 and discovery over
+ * UDP 6999 and 7000. Refuses an arm whose axes are not known (RangeError).
  */
 export async function createVirtualKuka(options: VirtualKukaOptions): Promise<VirtualKuka> {
   const { robot, scheduler, network, host } = options;
@@ -312,7 +315,10 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
   };
 }
 
-/** What a person does in the morning: messages confirmed, drives on, our program selected and started. Null, or what stands in the way. */
+/**
+ * What a person does in the morning: messages confirmed, drives on, our program selected and started. Null, or what
+ * stands in the way.
+ */
 export function startLoop(kuka: VirtualKuka, name: typeof LOOP_NAME | typeof RSI_NAME = LOOP_NAME): string | null {
   const { pendant, program } = kuka;
   pendant.confirm();

@@ -29,7 +29,10 @@ export class Globals {
     const value = this.entries.get(name)?.value;
     return value?.kind === "bool" && value.value;
   }
-  /** False when there is no such variable or the value is not of its type. A part left out of a structure stays as it is. */
+  /**
+   * False when there is no such variable or the value is not of its type. A part left out of a structure stays as it
+   * is.
+   */
   write(name: string, text: string): boolean {
     const entry = this.entries.get(name);
     const read = readKrlValue(text);

@@ -10,8 +10,8 @@ const LINES_PER_CYCLE = 200;
 const MOST_KEPT = 200;
 
 /**
- * A program text being executed: its steps as the arm takes them, slow enough for the mode, and from where it was stopped.
- * Lines in and out are renamed to the controller's numbers, `$IN[3]`.
+ * A program text being executed: its steps as the arm takes them, slow enough for the mode, and from where it was
+ * stopped. Lines in and out are renamed to the controller's numbers, `$IN[3]`.
  */
 export class Job {
   readonly context: Ready["context"];

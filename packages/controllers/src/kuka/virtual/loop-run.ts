@@ -13,9 +13,9 @@ export const BY_MACHINE: readonly string[] = ["controller.stopped", "safety.emer
 const LEAST_MPS = 1e-6;
 
 /**
- * What the program TWINCELL does, statement for statement, as a controller executes it: it waits for commands in its globals,
- * moves, and brakes by interrupt. A motion that something else stopped goes on when the program is started again, unless
- * TWC_STOP has been set by then.
+ * What the program TWINCELL does, statement for statement, as a controller executes it: it waits for commands in its
+ * globals, moves, and brakes by interrupt. A motion that something else stopped goes on when the program is started
+ * again, unless TWC_STOP has been set by then.
  */
 export class LoopRun implements Builtin {
   private readonly globals: Globals;
@@ -131,7 +131,8 @@ export class LoopRun implements Builtin {
       if (mine !== this.running || !this.motion) return;
       if (this.braking !== 0) this.end(this.braking);
       else if (outcome.kind === "done") this.end(TWC_RESULT.done);
-      // A target that cannot be reached stops the program with a message, as the controller does; what the machine stopped waits.
+      // A target that cannot be reached stops the program with a message, as the controller does; what the machine
+      // stopped waits.
       else if (outcome.kind === "refused" || !BY_MACHINE.includes(outcome.why.code))
         this.machine.stop(2, outcome.why.sentence);
     });

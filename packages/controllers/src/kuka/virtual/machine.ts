@@ -1,6 +1,9 @@
 import type { VirtualController } from "../../virtual/index.ts";
 
-/** The mode key: slow and fast by hand with the enabling switch, automatic by the pendant, automatic by a remote control. */
+/**
+ * The mode key: slow and fast by hand with the enabling switch, automatic by the pendant, automatic by a remote
+ * control.
+ */
 export type KukaMode = "T1" | "T2" | "AUT" | "EX";
 export interface Message {
   readonly text: string /** The robot stopped for it; it stays until its cause is gone and a person has confirmed it. */;
@@ -11,8 +14,8 @@ export const T1_MPS = 0.25;
 const MOST_MESSAGES = 100;
 
 /**
- * Mode key, enabling switch, drives, emergency stop, operator safety and messages of a KUKA controller, in front of an arm
- * that moves. STOP 0 takes the drives off at once, STOP 1 brakes first, STOP 2 brakes and leaves them on.
+ * Mode key, enabling switch, drives, emergency stop, operator safety and messages of a KUKA controller, in front of an
+ * arm that moves. STOP 0 takes the drives off at once, STOP 1 brakes first, STOP 2 brakes and leaves them on.
  */
 export class Machine {
   private readonly arm: VirtualController;

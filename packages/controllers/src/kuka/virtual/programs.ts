@@ -21,8 +21,8 @@ export const moduleOf = (path: string): string =>
     .toUpperCase();
 
 /**
- * The programs on the controller and the one that is selected: selected, run to its path, executed, stopped, taken up again.
- * Why something cannot be is a sentence; null when it was done.
+ * The programs on the controller and the one that is selected: selected, run to its path, executed, stopped, taken up
+ * again. Why something cannot be is a sentence; null when it was done.
  */
 export class Programs {
   private readonly arm: VirtualController;

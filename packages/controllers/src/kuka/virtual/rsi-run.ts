@@ -50,8 +50,9 @@ export interface RsiSources {
 }
 
 /**
- * The robot's side of RSI. It owns IPOC; an answer counts when it carries the IPOC of the telegram before, comes within the cycle and
- * from the sensor of the file. What is missing or wrong counts as late: its corrections are dropped, or held where the file says so.
+ * The robot's side of RSI. It owns IPOC; an answer counts when it carries the IPOC of the telegram before, comes within
+ * the cycle and from the sensor of the file. What is missing or wrong counts as late: its corrections are dropped, or
+ * held where the file says so.
  */
 export class RsiRun implements Builtin {
   private readonly from: RsiSources;

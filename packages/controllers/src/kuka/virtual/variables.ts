@@ -42,7 +42,9 @@ const DIGITAL = 4096;
 const ANALOGUE = 32;
 const INDEXED = /^(\$[A-Z_]+)\[([0-9]{1,5})\]$/;
 
-/** The variables of the controller by name, in any case, as texts. What is not known or may not be written is not done. */
+/**
+ * The variables of the controller by name, in any case, as texts. What is not known or may not be written is not done.
+ */
 export function kukaVariables(from: VariableSources): Variables {
   const { robot, axes, machine, programs, globals, timers, arm, now, identity } = from;
   const digits = from.digits ?? REAL_DIGITS;

@@ -61,8 +61,9 @@ const MISSED = 2.5;
 const QUESTION = `LISTR STATE(1),STATE(2),${TWC.done}`;
 
 /**
- * A CS7 by the monitor of its V+: joints by WHERE, its state and the number of the last motion by LISTR, motions by the program TWC.MOVE
- * in a task of its own, so that the monitor stays free. An emergency stop takes high power off (PANIC). A hold brakes the motion and says it again.
+ * A CS7 by the monitor of its V+: joints by WHERE, its state and the number of the last motion by LISTR, motions by the
+ * program TWC.MOVE in a task of its own, so that the monitor stays free. An emergency stop takes high power off
+ * (PANIC). A hold brakes the motion and says it again.
  */
 export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
   const stale_s =

@@ -22,8 +22,8 @@ export interface LineListener {
 }
 
 /**
- * Commands and what is said to them, in order. An answer counts from the echo of its command on: what the controller says of its own
- * accord, with a prompt behind it, may stand in between.
+ * Commands and what is said to them, in order. An answer counts from the echo of its command on: what the controller
+ * says of its own accord, with a prompt behind it, may stand in between.
  */
 export function openLine(stream: ByteStream, scheduler: Scheduler, listener: LineListener): Line {
   const asked: Asked[] = [];

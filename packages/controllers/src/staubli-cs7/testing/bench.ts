@@ -15,7 +15,10 @@ export const HOST = "127.0.0.7";
 /** Postures near the one it begins in; a radian to either side is within its limits. */
 export const shifted = (by_rad: number): number[] => RX90L.home_rad.map((q, i) => (i < 3 ? q + by_rad : q));
 
-/** Programs of joint moves, one `MOVE #PPOINT(…)` a line: enough to show that texts are executed. V+ itself is read in the apps' tests. */
+/**
+ * Programs of joint moves, one `MOVE #PPOINT(…)` a line: enough to show that texts are executed. V+ itself is read in
+ * the apps' tests.
+ */
 export function interpretMoves(text: string): Interpreted {
   const lines = text.split(/\r?\n/);
   const faulty = lines.findIndex(

@@ -14,7 +14,10 @@ import { JOINTS, shownOf, type VPlusJoints } from "../joints.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
 
-/** What the monitor says to a command: text, then the prompt; `blocks`: the prompt comes when the motion has ended; `asks`: an answer is waited for. */
+/**
+ * What the monitor says to a command: text, then the prompt; `blocks`: the prompt comes when the motion has ended;
+ * `asks`: an answer is waited for.
+ */
 export interface Said {
   readonly text: string;
   readonly blocks?: boolean;

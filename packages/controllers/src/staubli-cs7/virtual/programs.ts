@@ -9,7 +9,10 @@ const MOST_TEXT = 4_000_000;
 const MOST_NAMES = 2_000;
 const MILLI = 1000;
 
-/** Variables of the monitor, files of the disk, programs in memory, and the one task that has the robot. A refusal is what the monitor says. */
+/**
+ * Variables of the monitor, files of the disk, programs in memory, and the one task that has the robot. A refusal is
+ * what the monitor says.
+ */
 export class Programs {
   readonly reals = new Map<string, number>();
   /** Precision points [deg]. */

@@ -76,8 +76,9 @@ const STANDS_RAD = 2e-6;
 /** The program takes a share of exactly 0.001 for something else, and none of 0 or below. */
 const LEAST_RATIO = 0.002;
 /**
- * A point without speed, which the program refuses and answers: so long is the way there and back, and the socket of the motions is alive. It names where
- * the robot stands, and is sent only while it does: a program that took it all the same would move nothing.
+ * A point without speed, which the program refuses and answers: so long is the way there and back, and the socket of
+ * the motions is alive. It names where the robot stands, and is sent only while it does: a program that took it all the
+ * same would move nothing.
  */
 const PROBE = -9;
 const PROBE_S = 0.5;
@@ -96,9 +97,10 @@ function within(
 const STEP_RAD = 2 ** -21;
 
 /**
- * A CS8 or CS9 over simple_message: joint angles 50 times a second, a status with every fifth, motions one joint point at a time. A
- * stop makes the program forget all motions. It has no override: another speed, or a hold, brakes the motion and says the rest of it
- * again. Whenever power, chain or mode take the robot away, the stack is emptied: nothing goes on when they come back.
+ * A CS8 or CS9 over simple_message: joint angles 50 times a second, a status with every fifth, motions one joint point
+ * at a time. A stop makes the program forget all motions. It has no override: another speed, or a hold, brakes the
+ * motion and says the rest of it again. Whenever power, chain or mode take the robot away, the stack is emptied:
+ * nothing goes on when they come back.
  */
 export function createStaubliAdapter(options: StaubliAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;

@@ -16,7 +16,10 @@ export const HOST = "127.0.0.6";
 export const BEGIN_RAD: readonly number[] = [0, 0.3, 0.8, 0, 0.3, 0];
 export const shifted = (by_rad: number): number[] => BEGIN_RAD.map(q => q + by_rad);
 
-/** A text of one joint move a line, in degrees: enough to show that a controller executes what it is handed. VAL 3 itself is read in the apps' tests. */
+/**
+ * A text of one joint move a line, in degrees: enough to show that a controller executes what it is handed. VAL 3
+ * itself is read in the apps' tests.
+ */
 export function interpretMoves(text: string): Interpreted {
   const lines = text.split("\n");
   const faulty = lines.findIndex(line => line !== "" && !/^movej( -?[0-9.]+){6}$/.test(line));

@@ -93,7 +93,10 @@ const STATUS_EVERY = 5;
 const BOOT_S = 2;
 const JOINTS = 6;
 
-/** A CS8 or CS9 of numbers with the VAL 3 program ros_server running: motions over one socket, joint angles and status over the other. */
+/**
+ * A CS8 or CS9 of numbers with the VAL 3 program ros_server running: motions over one socket, joint angles and status
+ * over the other.
+ */
 export async function createVirtualStaubli(options: VirtualStaubliOptions): Promise<StaubliStarted> {
   const { robot, scheduler, network, host } = options;
   const log =

@@ -9,8 +9,9 @@ const WORKING: Readonly<Record<StaubliMode, number>> = { manual: 1, local: 3, re
 export const ES = { ok: 0, waiting: 1, stop: 2 } as const;
 
 /**
- * Working mode, emergency-stop chain, arm power and Move/Hold of a CS8 or CS9, in front of an arm that moves. Power goes off with
- * every change of mode and every opening of the chain, and comes back by a hand, once the chain is closed and acknowledged.
+ * Working mode, emergency-stop chain, arm power and Move/Hold of a CS8 or CS9, in front of an arm that moves. Power
+ * goes off with every change of mode and every opening of the chain, and comes back by a hand, once the chain is closed
+ * and acknowledged.
  */
 export class Machine {
   private readonly arm: VirtualController;

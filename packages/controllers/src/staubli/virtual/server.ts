@@ -31,8 +31,9 @@ export interface ServerSocket {
 }
 
 /**
- * One of the two sockets of ros_server: a TCP server that has one client at a time. A client that comes while another is there takes
- * its place: the one before may be gone without a word. Whoever sends what is no message is logged once and cut off.
+ * One of the two sockets of ros_server: a TCP server that has one client at a time. A client that comes while another
+ * is there takes its place: the one before may be gone without a word. Whoever sends what is no message is logged once
+ * and cut off.
  */
 export async function serveSocket(options: SocketOptions): Promise<ServerSocket> {
   const { network, host, port, scheduler, faults, log } = options;

@@ -9,8 +9,9 @@ export const MAX_POINTS = 10;
 export const MAX_MOTIONS = 10;
 
 /**
- * What makes the arm move: points of ros_server, one from its buffer into the stack of motions in each cycle, and a VAL 3
- * program started at the pendant. A motion that lost its power stays in the stack and is carried out when the power is back.
+ * What makes the arm move: points of ros_server, one from its buffer into the stack of motions in each cycle, and a VAL
+ * 3 program started at the pendant. A motion that lost its power stays in the stack and is carried out when the power
+ * is back.
  */
 export class Stack {
   private readonly robot: Robot;

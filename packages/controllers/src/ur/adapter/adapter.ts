@@ -26,7 +26,10 @@ const STALE_S = 0.08;
 const BEAT_S = WATCHDOG_S / 5;
 /** A stop that the program on the robot does not confirm in this time goes through the dashboard as well [s]. */
 const STOP_CONFIRMED_S = 0.05;
-/** So many heartbeats that the controller does not hear, while its states come, and the line is good in one direction only. */
+/**
+ * So many heartbeats that the controller does not hear, while its states come, and the line is good in one direction
+ * only.
+ */
 const DEAF = 40;
 const LOOK_S = 0.004;
 const ASK_REMOTE_S = 0.1;
@@ -52,8 +55,9 @@ interface Open {
 }
 
 /**
- * Drives a robot of Universal Robots: states over RTDE at 500 Hz, motions as orders in RTDE's registers to a small program that
- * is uploaded to the robot, power and safety over the dashboard, program texts and messages over the primary interface.
+ * Drives a robot of Universal Robots: states over RTDE at 500 Hz, motions as orders in RTDE's registers to a small
+ * program that is uploaded to the robot, power and safety over the dashboard, program texts and messages over the
+ * primary interface.
  */
 export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
@@ -323,7 +327,10 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     return why ? refused(why) : DONE;
   }
 
-  /** Our own program makes room for it; it is sent when it is to start, because a UR begins with a text as soon as it has it. */
+  /**
+   * Our own program makes room for it; it is sent when it is to start, because a UR begins with a text as soon as it
+   * has it.
+   */
   async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
     const at = open;
     const text = files[0]?.text;

@@ -1,6 +1,7 @@
 /**
- * The program that runs on the robot while it is driven move by move, in the controller's own language. Registers 24 and up are
- * those for clients of RTDE. It stops by itself when the heartbeat stays away: the robot's own watchdog, not ours.
+ * The program that runs on the robot while it is driven move by move, in the controller's own language. Registers 24
+ * and up are those for clients of RTDE. It stops by itself when the heartbeat stays away: the robot's own watchdog, not
+ * ours.
  *
  *   input int 24     heartbeat, written again and again            output int 24   number of the order that has ended
  *   input int 25     number of the order; a new one begins it      output int 25   LISTENING while the program takes orders

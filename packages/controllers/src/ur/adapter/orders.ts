@@ -49,7 +49,10 @@ const AT = {
 } as const;
 const WRAP = 1_000_000;
 
-/** Writes orders into the slots that are sent. Poses leave as the controller counts them: from its own base, with a rotation vector. */
+/**
+ * Writes orders into the slots that are sent. Poses leave as the controller counts them: from its own base, with a
+ * rotation vector.
+ */
 export class Orders {
   private readonly slots: Float64Array;
   private readonly robot: Robot;

@@ -1,4 +1,7 @@
-/** Words of the dashboard: what is asked, and what is answered. Both sides take them from here; neither is tested against the other alone. */
+/**
+ * Words of the dashboard: what is asked, and what is answered. Both sides take them from here; neither is tested
+ * against the other alone.
+ */
 export const BANNER = "Connected: Universal Robots Dashboard Server";
 
 /** Commands by their word; what follows the word is the argument. Longer words go first where one begins another. */

@@ -42,15 +42,18 @@ export const blockChange = (line: string): number => {
 };
 
 /**
- * The joint speed and acceleration that a script's `v` and `a` are shares of: those of the slowest joint, so that every joint
- * can have them.
+ * The joint speed and acceleration that a script's `v` and `a` are shares of: those of the slowest joint, so that every
+ * joint can have them.
  */
 export const leadingJoint = (robot: Robot): { readonly speed_rad_s: number; readonly acceleration_rad_s2: number } => ({
   speed_rad_s: Math.min(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s)),
   acceleration_rad_s2: Math.min(...robot.arm.joints.map(({ limits }) => limits.acceleration_rad_s2)),
 });
 
-/** Lines of the control box by name: digital 0 … 7 standard, 8 … 15 configurable, 16 and 17 at the tool; analogue 0 and 1. */
+/**
+ * Lines of the control box by name: digital 0 … 7 standard, 8 … 15 configurable, 16 and 17 at the tool; analogue 0 and
+ * 1.
+ */
 export interface UrLine {
   readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out";
   readonly number: number;

@@ -69,7 +69,10 @@ function pack(type: number, body: (out: Writer) => void): Uint8Array {
   return out.done();
 }
 
-/** What one state package says. Angles [rad], lengths [m], poses are x y z and a rotation vector in the controller's base. */
+/**
+ * What one state package says. Angles [rad], lengths [m], poses are x y z and a rotation vector in the controller's
+ * base.
+ */
 export interface PrimaryState {
   readonly time_us: number;
   readonly powerOn: boolean;
@@ -159,7 +162,8 @@ export function statePackage(state: PrimaryState, arm: PrimaryArm): Uint8Array {
       six(i => {
         out.f64(arm.speed_rad_s[i] ?? 0).f64(arm.acceleration_rad_s2[i] ?? 0);
       });
-      // Defaults of joint and tool moves, and the equivalent radius; D-H numbers are not published with the arm and left 0.
+      // Defaults of joint and tool moves, and the equivalent radius; D-H numbers are not published with the arm and
+      // left 0.
       out
         .f64(1.05)
         .f64(1.4)

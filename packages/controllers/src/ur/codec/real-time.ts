@@ -2,9 +2,9 @@ import { INPUT_FIELDS, OUTPUT_FIELDS } from "./rtde-fields.ts";
 import { viewOf } from "./rtde.ts";
 
 /**
- * The package of the real-time interface (port 30003) since software 5.10: `int32 size`, then big-endian doubles, whole numbers
- * among them. Names are those of RTDE for the same number; what the vendor keeps to itself has none and is 0. The lengths of the
- * shorter packages before (1060, 1108, 1116 and 1140 bytes) end where this one's parts end.
+ * The package of the real-time interface (port 30003) since software 5.10: `int32 size`, then big-endian doubles, whole
+ * numbers among them. Names are those of RTDE for the same number; what the vendor keeps to itself has none and is 0.
+ * The lengths of the shorter packages before (1060, 1108, 1116 and 1140 bytes) end where this one's parts end.
  */
 const PARTS: readonly (readonly [name: string | null, count: number])[] = [
   ["timestamp", 1],

@@ -1,6 +1,7 @@
 /**
- * The variables of RTDE that are spoken here, with their types. Every number of a variable has a slot in one array, so that a
- * package is packed and read without an object per field. Bits of 64 are kept as numbers: only the lower 18 are in use.
+ * The variables of RTDE that are spoken here, with their types. Every number of a variable has a slot in one array, so
+ * that a package is packed and read without an object per field. Bits of 64 are kept as numbers: only the lower 18 are
+ * in use.
  */
 export type FieldType =
   | "BOOL"

@@ -23,7 +23,10 @@ export interface Frames {
   push(bytes: Uint8Array, frame: (type: number, payload: Uint8Array) => void): string | null;
 }
 
-/** Cuts a stream into frames, however it was split: `uint16 size | uint8 type | payload`, big-endian. Keeps at most one frame. */
+/**
+ * Cuts a stream into frames, however it was split: `uint16 size | uint8 type | payload`, big-endian. Keeps at most one
+ * frame.
+ */
 export function rtdeFrames(): Frames {
   const kept = new Uint8Array(LARGEST_FRAME);
   let have = 0;

@@ -1,4 +1,7 @@
-/** Where and why a program cannot be read or goes on no further. Thrown inside this folder only; what is handed out are values. */
+/**
+ * Where and why a program cannot be read or goes on no further. Thrown inside this folder only; what is handed out are
+ * values.
+ */
 export interface ScriptFault {
   readonly line: number;
   readonly column: number;

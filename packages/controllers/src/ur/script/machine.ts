@@ -25,8 +25,8 @@ export type MachineState =
   | { readonly kind: "fault"; readonly fault: ScriptFault };
 
 /**
- * Executes one script as its controller does: threads take turns, each runs until it waits for the next cycle. What a program
- * body names is seen by its routines and threads; what a routine names first is its own.
+ * Executes one script as its controller does: threads take turns, each runs until it waits for the next cycle. What a
+ * program body names is seen by its routines and threads; what a routine names first is its own.
  */
 export class Machine {
   readonly script: Script;

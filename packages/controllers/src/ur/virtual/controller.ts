@@ -88,7 +88,10 @@ const DEFAULTS = {
 const READ_ONLY = 210;
 const VIOLATION = 2;
 
-/** A controller of Universal Robots made of numbers: its ports, its states, its programs, in front of the neutral virtual robot that moves. */
+/**
+ * A controller of Universal Robots made of numbers: its ports, its states, its programs, in front of the neutral
+ * virtual robot that moves.
+ */
 export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStarted> {
   const { robot, network, scheduler } = options;
   const version = options.version ?? DEFAULTS.version;

@@ -55,8 +55,8 @@ const pose = (six: readonly number[]): Value => ({ pose: six });
 const zeros = (): Value => [0, 0, 0, 0, 0, 0];
 
 /**
- * Functions of the controller for one script: motion, registers, lines, poses. There is no force here: what commands it is taken
- * and has no effect.
+ * Functions of the controller for one script: motion, registers, lines, poses. There is no force here: what commands it
+ * is taken and has no effect.
  */
 export function robotFunctions(host: ScriptHost, mayMove: boolean): Readonly<Record<string, ScriptFunction>> {
   const { robot, memory, mover } = host;

@@ -9,7 +9,10 @@ export interface Moving {
   begun: boolean;
 }
 
-/** Everything that moves the arm: whole motions through the neutral virtual robot, and streams of targets. One at a time. */
+/**
+ * Everything that moves the arm: whole motions through the neutral virtual robot, and streams of targets. One at a
+ * time.
+ */
 export class Mover {
   readonly stream: Stream;
   private readonly neutral: VirtualController;
@@ -80,7 +83,8 @@ export class Mover {
   /**
    * One cycle, after the neutral robot has made its own; the posture is lent.
    *
-   * @param sample  of the neutral robot: that it executes no step any more is known here a cycle before its promise resolves.
+   * @param sample  of the neutral robot: that it executes no step any more is known here a cycle before its promise
+   *   resolves.
    */
   cycle(sample: JointSample): Float64Array {
     this.neutral.jointAngles(this.q);

@@ -10,7 +10,9 @@ import type { Mover } from "./mover.ts";
 import type { Programs } from "./programs.ts";
 import type { States } from "./states.ts";
 
-/** What a person does at the teach pendant and at the robot, beside what every brand has. Manual mode is local control. */
+/**
+ * What a person does at the teach pendant and at the robot, beside what every brand has. Manual mode is local control.
+ */
 export interface UrPendant extends Pendant {
   setOperationalMode(mode: string): void;
   setSpeed(fraction: number): void;

@@ -10,7 +10,10 @@ export interface ProgramsOptions {
   readonly host: Omit<ScriptHost, "owner" | "watch">;
   readonly mover: Mover;
   readonly lines: NamedLines;
-  /** The language's own interpreter. It is asked first; what it does not understand goes to the machine for control scripts. */
+  /**
+   * The language's own interpreter. It is asked first; what it does not understand goes to the machine for control
+   * scripts.
+   */
   readonly interpret: (text: string) => Interpreted;
   readonly onStarted: (name: string) => void;
   readonly onStopped: (name: string) => void;
@@ -30,9 +33,9 @@ interface Running {
 }
 
 /**
- * The program that is running, at most one, and those that run beside it. A text is first shown to the interpreter that was
- * handed in, which knows the language of motions; a script with registers, threads or streams of targets is run by the
- * machine for control scripts.
+ * The program that is running, at most one, and those that run beside it. A text is first shown to the interpreter that
+ * was handed in, which knows the language of motions; a script with registers, threads or streams of targets is run by
+ * the machine for control scripts.
  */
 export class Programs {
   private readonly options: ProgramsOptions;

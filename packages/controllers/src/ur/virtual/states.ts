@@ -12,9 +12,9 @@ export interface StatesOptions {
 }
 
 /**
- * Power, brakes and safety of the controller: POWER_OFF → POWER_ON → IDLE → RUNNING, and the stops beside it. A protective stop
- * keeps the power and is unlocked by a person after five seconds; a safeguard stop ends with its cause; an emergency stop takes
- * the power; a fault wants the safety system restarted.
+ * Power, brakes and safety of the controller: POWER_OFF → POWER_ON → IDLE → RUNNING, and the stops beside it. A
+ * protective stop keeps the power and is unlocked by a person after five seconds; a safeguard stop ends with its cause;
+ * an emergency stop takes the power; a fault wants the safety system restarted.
  */
 export class States {
   private readonly options: StatesOptions;

@@ -18,9 +18,9 @@ type Wanted =
   | { readonly kind: "tool"; readonly twist: Float64Array; readonly acceleration: number };
 
 /**
- * Motion whose target changes while it moves: what servoj, speedj, speedl and their stops ask for. Every joint keeps its speed
- * and acceleration and stops in front of its limit. A tool's motion begins from rest; where a joint cannot follow its speed it is
- * slowed as a whole, and where no posture follows it the joints come to rest.
+ * Motion whose target changes while it moves: what servoj, speedj, speedl and their stops ask for. Every joint keeps
+ * its speed and acceleration and stops in front of its limit. A tool's motion begins from rest; where a joint cannot
+ * follow its speed it is slowed as a whole, and where no posture follows it the joints come to rest.
  */
 export class Stream {
   private readonly robot: Robot;

@@ -31,8 +31,8 @@ export interface YaskawaAdapterOptions {
   /** From where to ask; every address of this machine when left out. */
   readonly local?: string;
   /**
-   * From the parameter file of the controller: nothing here guesses it. Left out, only a virtual controller is driven, which
-   * says of itself that it is one and counts as the example does.
+   * From the parameter file of the controller: nothing here guesses it. Left out, only a virtual controller is driven,
+   * which says of itself that it is one and counts as the example does.
    */
   readonly scale?: PulseScale;
   /** Part of what the controller answers as its model; the name of the robot without its maker when left out. */
@@ -41,11 +41,14 @@ export interface YaskawaAdapterOptions {
   readonly poll_s?: number;
   readonly stale_s?: number;
   /**
-   * Logical numbers of lines by name. Others are found by INFORM's own names and by their numbers. Left out, the first sixteen
-   * general inputs and outputs are watched, and a virtual controller has those of its example ladder.
+   * Logical numbers of lines by name. Others are found by INFORM's own names and by their numbers. Left out, the first
+   * sixteen general inputs and outputs are watched, and a virtual controller has those of its example ladder.
    */
   readonly signals?: Readonly<Record<string, number>>;
-  /** Network input that the ladder passes on to OT#(1), the next one to OT#(2): outputs are switched in no other way. The example's for a virtual controller. */
+  /**
+   * Network input that the ladder passes on to OT#(1), the next one to OT#(2): outputs are switched in no other way.
+   * The example's for a virtual controller.
+   */
   readonly outputsFrom?: number;
   /** The line that closes the gripper. */
   readonly gripper?: number;
@@ -63,7 +66,9 @@ const POLL_S = 0.01;
 const STALE_S = 0.08;
 const BESIDE_S = 0.02;
 const GRIPPER = "gripper";
-/** What a virtual controller answers as its software; and its lines: sixteen in, sixteen out, and one for the gripper. */
+/**
+ * What a virtual controller answers as its software; and its lines: sixteen in, sixteen out, and one for the gripper.
+ */
 const VIRTUAL = "VIRTUAL";
 const EXAMPLE_GRIPPER = 29_567;
 const EXAMPLE_SIGNALS = Object.fromEntries(
@@ -239,7 +244,8 @@ export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
       const shut = (): void => {
         for (const client of open) client.close();
       };
-      // A controller hears one question at a time of each sender: who watches does not wait behind an order whose answer was lost.
+      // A controller hears one question at a time of each sender: who watches does not wait behind an order whose
+      // answer was lost.
       for (const [address, division] of [
         [to, DIVISION.robot],
         [to, DIVISION.robot],

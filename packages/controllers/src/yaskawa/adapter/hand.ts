@@ -21,7 +21,10 @@ import {
 /** An order that must not be carried out twice is said once, and looked after before it is said again [s]. */
 const ONCE_S = [0.3];
 const MOST_TRIES = 3;
-/** Refusals that pass by themselves, as just after a stop: busy, still moving. Nothing was carried out, so it is said again, so often. */
+/**
+ * Refusals that pass by themselves, as just after a stop: busy, still moving. Nothing was carried out, so it is said
+ * again, so often.
+ */
 const PASSING: readonly number[] = [ADDED.moving, ADDED.busy, 0xd8f1, 0xd8fa];
 const MOST_PASSING = 20;
 /** From the acceptance of a motion until it must be seen running [s]; the drives may take so long to come on. */

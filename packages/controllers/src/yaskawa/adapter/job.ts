@@ -7,7 +7,10 @@ import { badName, noJob, notTaken } from "./words.ts";
 
 const PATIENCE_S = [0.3, 0.5, 1];
 
-/** Saves jobs, and what they mean by numbers, on the controller, and selects the first job; started it runs once to its end. */
+/**
+ * Saves jobs, and what they mean by numbers, on the controller, and selects the first job; started it runs once to its
+ * end.
+ */
 export async function handJob(
   files: readonly EmittedFile[],
   client: Client,

@@ -29,7 +29,10 @@ interface Place {
   readonly bit: number;
 }
 
-/** The logical number of a line by its own name: `IN#(3)`, `OT#(12)` (INFORM's words; `in_3`, `out_12`), or the number itself; undefined when it is none. */
+/**
+ * The logical number of a line by its own name: `IN#(3)`, `OT#(12)` (INFORM's words; `in_3`, `out_12`), or the number
+ * itself; undefined when it is none.
+ */
 export function logicalOf(signal: string): number | undefined {
   const match = /^(in|ou?t)(?:_([0-9]{1,4})|#\(([0-9]{1,4})\))$/i.exec(signal);
   if (!match) return /^[0-9]{2,5}$/.test(signal) ? Number(signal) : undefined;
@@ -55,7 +58,8 @@ export const watchedLines = (): Readonly<Record<string, number>> =>
   );
 
 /**
- * @param outputsFrom  network input that the ladder of the controller passes on to OT#(1), the next one to OT#(2) and so on:
+ * @param outputsFrom  network input that the ladder of the controller passes on to OT#(1), the next one to OT#(2) and
+ *   so on:
  *                     from outside an output is switched in no other way. Undefined when it has none.
  */
 export function lineTable(

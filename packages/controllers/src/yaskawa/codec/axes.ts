@@ -10,8 +10,8 @@ import {
 } from "@twincell/core";
 
 /**
- * How a controller counts the axes S, L, U, R, B, T of its robot: pulses = round(pulsesPerDegree · (sign · degrees(q) + offset_deg)).
- * Data of one robot, from its parameter file (ALL.PRM); nobody can work it out from a name.
+ * How a controller counts the axes S, L, U, R, B, T of its robot: pulses = round(pulsesPerDegree · (sign · degrees(q) +
+ * offset_deg)). Data of one robot, from its parameter file (ALL.PRM); nobody can work it out from a name.
  */
 export interface PulseScale {
   readonly pulsesPerDegree: readonly number[];

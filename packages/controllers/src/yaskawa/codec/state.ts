@@ -75,7 +75,9 @@ export const noPosition = (): Position => ({
   axes: new Int32Array(AXES),
 });
 
-/** False when the data is too short; then `out` is as it was. Older controllers leave out the last axes: those are 0. */
+/**
+ * False when the data is too short; then `out` is as it was. Older controllers leave out the last axes: those are 0.
+ */
 export function readPosition(data: Uint8Array, out: Position): boolean {
   if (data.length < 5 * 4 + 6 * 4) return false;
   out.type = u32(data, 0);

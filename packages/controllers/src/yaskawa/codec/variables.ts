@@ -43,12 +43,18 @@ export type IoName = (typeof IO_GROUPS)[number]["name"];
 export const ioGroupOf = (group: number): (typeof IO_GROUPS)[number] | undefined =>
   IO_GROUPS.find(({ first, last }) => group >= first && group <= last);
 
-/** Group and bit of a line by its logical number, e.g. 27013: group 2701, bit 3. Undefined for a number that ends in 8 or 9. */
+/**
+ * Group and bit of a line by its logical number, e.g. 27013: group 2701, bit 3. Undefined for a number that ends in 8
+ * or 9.
+ */
 export const lineAt = (logical: number): { readonly group: number; readonly bit: number } | undefined =>
   Number.isInteger(logical) && logical >= 10 && logical % 10 < 8
     ? { group: Math.floor(logical / 10), bit: logical % 10 }
     : undefined;
 
-/** Network input that the ladder of the example passes on to OT#(1), the next one to OT#(2) and so on, as many as there are groups. */
+/**
+ * Network input that the ladder of the example passes on to OT#(1), the next one to OT#(2) and so on, as many as there
+ * are groups.
+ */
 export const EXAMPLE_OUTPUTS = 27_170;
 export const EXAMPLE_OUTPUT_GROUPS = 16;

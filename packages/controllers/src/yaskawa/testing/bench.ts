@@ -135,7 +135,10 @@ export async function rawClient(
   };
 }
 
-/** A few words of a language of the tests' own between NOP and END: `MOVJ angle` turns joint 1, `W seconds` waits, `O n` and `I n` are lines. */
+/**
+ * A few words of a language of the tests' own between NOP and END: `MOVJ angle` turns joint 1, `W seconds` waits, `O n`
+ * and `I n` are lines.
+ */
 export function interpret(text: string): Interpreted {
   const lines = text.split("\n");
   const nop = lines.findIndex(line => line.trim() === "NOP");

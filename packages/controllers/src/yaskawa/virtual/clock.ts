@@ -1,5 +1,8 @@
 const DAY_S = 86_400;
-/** Days of 400 years, of a century, of four years, of a year; of the days before 1970 counted from 1 March of the year 0. */
+/**
+ * Days of 400 years, of a century, of four years, of a year; of the days before 1970 counted from 1 March of the year
+ * 0.
+ */
 const ERA = 146_097;
 const BEFORE_1970 = 719_468;
 

@@ -125,7 +125,10 @@ interface Client {
   answer: Answer | null;
 }
 
-/** A virtual FS100/DX200/YRC1000: the states of the vendor, its bytes on UDP, its job text, in front of the neutral virtual robot. */
+/**
+ * A virtual FS100/DX200/YRC1000: the states of the vendor, its bytes on UDP, its job text, in front of the neutral
+ * virtual robot.
+ */
 export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Promise<YaskawaStart> {
   const { robot, scheduler, network, host } = options;
   const random = seededRandom(options.seed ?? 1);

@@ -1,7 +1,10 @@
 import type { Scheduler } from "@twincell/core";
 import { calm, type Address, type DatagramSocket, type NetworkConditions } from "../../transport/index.ts";
 
-/** What may go wrong with the server, by switch: the weather of what it sends and hears, and numbers that are not what they should be. */
+/**
+ * What may go wrong with the server, by switch: the weather of what it sends and hears, and numbers that are not what
+ * they should be.
+ */
 export interface Faults extends NetworkConditions {
   /** Of answers, whose request id is another one. */
   wrongId: number;

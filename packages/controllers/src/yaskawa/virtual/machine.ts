@@ -39,7 +39,8 @@ const FLANGE = identity<"flange", "tcp">();
 /**
  * The states of a controller in front of the neutral virtual robot: key switch and command remote, servo power, three
  * holds, alarms and errors, one motion or one job. Every order is answered by 0 or by the added status of its refusal.
- * A hold slows the robot down along its path; a job goes on from there when it is started again, a single move is given up.
+ * A hold slows the robot down along its path; a job goes on from there when it is started again, a single move is given
+ * up.
  */
 export class Machine {
   readonly status: Status = noStatus();
@@ -108,7 +109,8 @@ export class Machine {
     return this.mode !== "remote" ? ADDED.wrongMode : this.commandRemote ? 0 : ADDED.noCommandRemote;
   }
 
-  // At the robot itself ---------------------------------------------------------------------------------------------------
+  // At the robot itself
+  // ---------------------------------------------------------------------------------------------------
 
   turn(to: KeySwitch): void {
     this.mode = to;
@@ -160,7 +162,8 @@ export class Machine {
     this.servo(false);
   }
 
-  // Orders ----------------------------------------------------------------------------------------------------------------
+  // Orders
+  // ----------------------------------------------------------------------------------------------------------------
 
   hold(by: "heldByPendant" | "heldByCommand", on: boolean): number {
     this.status[by] = on;
@@ -228,7 +231,8 @@ export class Machine {
     return 0;
   }
 
-  // Inside ----------------------------------------------------------------------------------------------------------------
+  // Inside
+  // ----------------------------------------------------------------------------------------------------------------
 
   private context: Context = { tools: {}, frames: {} };
 

@@ -28,8 +28,9 @@ const NETWORK_OUT = 3701;
 const NETWORK_LAST = 256;
 
 /**
- * Lines in and out in groups of eight. The ladder of this virtual controller is an example: network inputs are joined to
- * the general inputs of the same place, those from 27170 on switch general outputs when they change, and general outputs are repeated as network outputs.
+ * Lines in and out in groups of eight. The ladder of this virtual controller is an example: network inputs are joined
+ * to the general inputs of the same place, those from 27170 on switch general outputs when they change, and general
+ * outputs are repeated as network outputs.
  */
 export class Lines {
   private readonly signals: Signals;

@@ -96,7 +96,8 @@ describe("a virtual Yaskawa controller: values", () => {
     readPosition((await read(COMMAND.position, 1))!.data, pulses);
     expect([...pulses.axes]).toEqual([1340, 0, 0, 0, -90_000, 0, 0, 0]);
     readPosition((await read(COMMAND.position, 101))!.data, place);
-    // 40 + 340 mm ahead of axis 1 turned by a degree; the wrist hangs down by 80 mm from 345 + 40 above axis 2, from where the controller counts.
+    // 40 + 340 mm ahead of axis 1 turned by a degree; the wrist hangs down by 80 mm from 345 + 40 above axis 2, from
+    // where the controller counts.
     expect([place.type, ...place.axes]).toEqual([
       16,
       379_942,

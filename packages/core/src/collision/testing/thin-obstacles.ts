@@ -20,18 +20,27 @@ const needle = transformMesh(boxMesh([0.1, 0.0002, 0.0002]), pose([0.05, 0, 0]))
 const plate = boxMesh([0.002, 0.0001, 0.002]);
 const SAMPLES_APART_M = 0.005;
 
-/** How many plates 0.1 mm thin, each across the way of a needle 0.2 mm thin, are seen by samples 5 mm apart and by the continuous check. */
+/**
+ * How many plates 0.1 mm thin, each across the way of a needle 0.2 mm thin, are seen by samples 5 mm apart and by the
+ * continuous check.
+ */
 export interface ThinResult {
   /** Cases in which samples 5 mm apart along the way of the tip see nothing. */
   readonly unsampled: number;
   /** Of these, how many motions the continuous check let pass, or stopped only after the plate. */
   readonly missed: number;
-  /** Cases with the plate 5 mm above the way, that were proven clear, and whose certificates were confirmed by the second proof. */
+  /**
+   * Cases with the plate 5 mm above the way, that were proven clear, and whose certificates were confirmed by the
+   * second proof.
+   */
   readonly certified: number;
   readonly confirmed: number;
 }
 
-/** Draws random motions until `cases` plates are between the samples; every `certifyEach`-th is also certified with the plate out of the way. */
+/**
+ * Draws random motions until `cases` plates are between the samples; every `certifyEach`-th is also certified with the
+ * plate out of the way.
+ */
 export function thinObstacles(cases: number, certifyEach: number, random: Random): ThinResult {
   const collider = new CellCollider(
     planarCell([{ id: "plate", name: "Plate", mesh: plate, worldFromObject: pose() }], {

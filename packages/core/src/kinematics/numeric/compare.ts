@@ -12,7 +12,10 @@ import { lengthAt, poseError } from "./pose-error.ts";
 export const IK_METHODS = ["closed", "dls", "fabrik", "gradient"] as const;
 export type IkMethod = (typeof IK_METHODS)[number];
 
-/** What one method made of a target. q is null where it has no answer; the errors are those of its flange, the jump is Σ|Δθ| from the start. */
+/**
+ * What one method made of a target. q is null where it has no answer; the errors are those of its flange, the jump is
+ * Σ|Δθ| from the start.
+ */
 export interface MethodResult {
   readonly method: IkMethod;
   readonly q_rad: Float64Array | null;
@@ -77,7 +80,10 @@ export const compareMethods = (
   q0: ArrayLike<number>,
 ): MethodResult[] => IK_METHODS.map(method => solveBy(method, robot, baseFromFlange, q0));
 
-/** How a method does along a path, each pose solved from the answer before it. Jumps are the largest between two following poses. */
+/**
+ * How a method does along a path, each pose solved from the answer before it. Jumps are the largest between two
+ * following poses.
+ */
 export interface PathResult {
   readonly method: IkMethod;
   readonly solved: number;
@@ -93,7 +99,10 @@ export interface PathResult {
   readonly jump_rad: Float64Array;
 }
 
-/** Follows a path of flange poses by one method. A pose without an answer leaves the arm where it is, and its errors are that posture's. @throws {JointCountFault} */
+/**
+ * Follows a path of flange poses by one method. A pose without an answer leaves the arm where it is, and its errors are
+ * that posture's. @throws {JointCountFault}
+ */
 export function comparePath(
   method: IkMethod,
   robot: Robot,

@@ -30,7 +30,10 @@ export type Stall =
   | { readonly kind: "local-minimum" }
   | { readonly kind: "out-of-steps"; readonly steps: number };
 
-/** Where a numeric method ended. q lies inside the limits; the errors are those of its flange. `starts` counts the first one. */
+/**
+ * Where a numeric method ended. q lies inside the limits; the errors are those of its flange. `starts` counts the first
+ * one.
+ */
 interface Ended {
   readonly q_rad: Float64Array;
   readonly iterations: number;
@@ -50,8 +53,8 @@ const TURN_SHARE = 0.3;
 const SAME_PLACE_M = 1e-6;
 
 /**
- * Joint angles of any chain for a pose of the flange, from a start posture, by damped least squares inside the joint limits;
- * or why it stalled and how near it came.
+ * Joint angles of any chain for a pose of the flange, from a start posture, by damped least squares inside the joint
+ * limits; or why it stalled and how near it came.
  *
  * @param q0       n angles [rad] to start from; brought inside the limits first. Read only.
  * @param scratch  made for n joints; with it the call allocates nothing but its answer.

@@ -28,15 +28,17 @@ const STEPS_IN_PLACE = 8;
  *
  *   (JᵀWJ + μ I) Δq = JᵀW e,   W = diag(1, 1, 1, w², w², w²),   q ← clamp(q + Δq)
  *
- * μ falls with the gain ratio of each good step and doubles, ever faster, after each bad one, so that a singular posture
- * costs small steps and not large speeds. Joints at a limit that the downhill direction presses against it are held and
- * the others solve without them (active set).
+ * μ falls with the gain ratio of each good step and doubles, ever faster, after each bad one, so that a singular
+ * posture costs small steps and not large speeds. Joints at a limit that the downhill direction presses against it are
+ * held and the others solve without them (active set).
  *
  * @param wanted   finite, unit quaternion.
  * @param scratch  `q` is the start, brought inside the limits, and receives the posture reached; made for n joints.
  * @returns whether position and angle are within the tolerances of `aim`. Allocates nothing.
- * @see Nielsen, Damping Parameter in Marquardt's Method, DTU 1999; Sugihara, Solvability-Unconcerned Inverse Kinematics by the
- *      Levenberg–Marquardt Method, IEEE Trans. Robotics 27(5) 2011; Bertsekas, Projected Newton Methods, SIAM J. Control 20(2) 1982.
+ * @see Nielsen, Damping Parameter in Marquardt's Method, DTU 1999; Sugihara, Solvability-Unconcerned Inverse Kinematics
+ * by the
+ *      Levenberg–Marquardt Method, IEEE Trans. Robotics 27(5) 2011; Bertsekas, Projected Newton Methods, SIAM J.
+ *      Control 20(2) 1982.
  */
 export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Descent, scratch: DampedScratch): boolean {
   const { q, rows, normal, uphill, step, trial, error, trialError, pressed } = scratch;

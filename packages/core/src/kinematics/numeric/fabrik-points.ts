@@ -1,5 +1,7 @@
-// FABRIK on bare points (rows X-19, X-20): n + 1 points, three numbers each, base first, and the n lengths between them.
-// @see Aristidou & Lasenby, FABRIK: A fast, iterative solver for the Inverse Kinematics problem, Graphical Models 73(5) 2011.
+// FABRIK on bare points (rows X-19, X-20): n + 1 points, three numbers each, base first, and the n lengths between
+// them.
+// @see Aristidou & Lasenby, FABRIK: A fast, iterative solver for the Inverse Kinematics problem, Graphical Models 73(5)
+// 2011.
 
 /** The lengths between following points. */
 export function lengthsOf(points: ArrayLike<number>): Float64Array {
@@ -9,8 +11,8 @@ export function lengthsOf(points: ArrayLike<number>): Float64Array {
 }
 
 /**
- * End effector to base: point `last` stays where it is, and each one before it is drawn along the line to its successor until
- * the link between them has its length again. The base comes loose.
+ * End effector to base: point `last` stays where it is, and each one before it is drawn along the line to its successor
+ * until the link between them has its length again. The base comes loose.
  *
  * @param last  index of the point that stays; those after it are left alone.
  */
@@ -18,7 +20,10 @@ export function fabrikBackward(points: Float64Array, lengths: ArrayLike<number>,
   for (let k = last - 1; k >= 0; k--) draw(points, k, k + 1, lengths[k]!);
 }
 
-/** Base to end effector: point 0 goes back to where the base stands, and each next one is drawn after it. Always the last pass. */
+/**
+ * Base to end effector: point 0 goes back to where the base stands, and each next one is drawn after it. Always the
+ * last pass.
+ */
 export function fabrikForward(points: Float64Array, lengths: ArrayLike<number>, base: ArrayLike<number>): void {
   for (let axis = 0; axis < 3; axis++) points[axis] = base[axis]!;
   for (let k = 1; k <= lengths.length; k++) draw(points, k, k - 1, lengths[k - 1]!);
@@ -70,7 +75,10 @@ export function apart(points: ArrayLike<number>, i: number, j: number): number {
   return Math.sqrt(x * x + y * y + z * z);
 }
 
-/** Moves point k onto the line to `anchor`, at that distance; points that coincide have no line, and the link then stands along z. */
+/**
+ * Moves point k onto the line to `anchor`, at that distance; points that coincide have no line, and the link then
+ * stands along z.
+ */
 function draw(points: Float64Array, k: number, anchor: number, length: number): void {
   const now = apart(points, k, anchor);
   for (let axis = 0; axis < 3; axis++) {

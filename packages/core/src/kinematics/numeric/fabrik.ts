@@ -14,7 +14,10 @@ export interface FabrikOptions {
   readonly insignificant_m?: number;
 }
 
-/** Where FABRIK ended. `miss_m` is the distance of the flange plus that of a point beside it, before and after each round. */
+/**
+ * Where FABRIK ended. `miss_m` is the distance of the flange plus that of a point beside it, before and after each
+ * round.
+ */
 export type FabrikAnswer =
   | {
       readonly kind: "settled" | "out-of-rounds";
@@ -36,10 +39,11 @@ const UNDECIDED_M2 = 1e-12;
 /**
  * FABRIK on a real arm (rows X-19 … X-22). Points are the joint origins, the flange and one point beside it.
  *
- * Backward: the last joint, the flange and the point beside it are put where the target wants them, and every joint before is
- * drawn after at its link length, as if all joints were balls. Forward, always last, so that the base stays: every joint, base
- * first, turns about its real axis and within its limits until the points beyond it are as near as they get to where the
- * backward pass put them. The two disagree wherever a hinge is no ball; the flaws of row X-22 come from there.
+ * Backward: the last joint, the flange and the point beside it are put where the target wants them, and every joint
+ * before is drawn after at its link length, as if all joints were balls. Forward, always last, so that the base stays:
+ * every joint, base first, turns about its real axis and within its limits until the points beyond it are as near as
+ * they get to where the backward pass put them. The two disagree wherever a hinge is no ball; the flaws of row X-22
+ * come from there.
  *
  * @param q0  n start angles [rad]. Read only.
  * @throws {JointCountFault} when `q0` does not hold n angles.
@@ -127,7 +131,8 @@ const apartFrom = (points: Float64Array, goal: Float64Array, point: number, at: 
 
 /**
  * Turns joint j so that the points beyond it come nearest to where they are wanted, in the sum of squares:
- * angle = atan2( Σ (z × u)·w, Σ u·w ), u and w from the joint to each point and to its wanted place, u square to the axis z.
+ * angle = atan2( Σ (z × u)·w, Σ u·w ), u and w from the joint to each point and to its wanted place, u square to the
+ * axis z.
  */
 function turnTowards(
   arm: SerialArm,

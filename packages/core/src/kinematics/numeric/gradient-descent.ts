@@ -14,7 +14,9 @@ export interface GradientOptions {
   readonly sweeps?: number;
   /** Near enough [m]: 2e-3 unless said. A constant L circles about the target within about L and comes no nearer. */
   readonly near_m?: number;
-  /** Ours, not the paper's: halves L after a sweep that leads away and goes back, so that the distance falls to the end. */
+  /**
+   * Ours, not the paper's: halves L after a sweep that leads away and goes back, so that the distance falls to the end.
+   */
   readonly backtracking?: boolean;
   /** Told of every joint in the order they are turned (row X-27). */
   readonly trace?: (step: GradientStep) => void;
@@ -71,14 +73,15 @@ export function slopeOf(
 }
 
 /**
- * Gradient descent as the thesis prints it (rows X-23 … X-27), on the place of the flange alone: its orientation is what comes of it.
+ * Gradient descent as the thesis prints it (rows X-23 … X-27), on the place of the flange alone: its orientation is
+ * what comes of it.
  *
  *   ∂f/∂xᵢ ≈ [f(xᵢ + d) − f(xᵢ)] / d        Eq 1
  *   direction = −gradient                     Eq 2
  *   xᵢ ← xᵢ − L · ∂f/∂xᵢ                      Eq 3
  *
- * Joints are turned one after the other, each from where the ones before it have led, beginning with the joint after the base.
- * Angles are cut at the joint limits.
+ * Joints are turned one after the other, each from where the ones before it have led, beginning with the joint after
+ * the base. Angles are cut at the joint limits.
  *
  * @param q0  n start angles [rad]. Read only.
  * @throws {JointCountFault} when `q0` does not hold n angles.

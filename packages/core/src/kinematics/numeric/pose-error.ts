@@ -33,7 +33,10 @@ export function poseError(wanted: Pose, present: Pose, out: Float64Array): void 
 export const lengthAt = (v: Float64Array, at: number): number =>
   Math.sqrt(v[at]! * v[at]! + v[at + 1]! * v[at + 1]! + v[at + 2]! * v[at + 2]!);
 
-/** Sum of the lengths between the joint origins from joint 2 on, to the flange, and of all slides drawn out [m]: the flange is never farther from joint 2 than this. */
+/**
+ * Sum of the lengths between the joint origins from joint 2 on, to the flange, and of all slides drawn out [m]: the
+ * flange is never farther from joint 2 than this.
+ */
 export function lengthOfArm(arm: SerialArm): number {
   let sum = norm(arm.lastJointFromFlange.position) + slideOf(arm.joints.slice(1));
   for (let j = 1; j < arm.joints.length; j++) sum += norm(arm.joints[j]!.parentFromJoint.position);

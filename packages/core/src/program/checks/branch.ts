@@ -13,7 +13,10 @@ const BIG_TURN_RAD = radians(150);
 /** Joint angles this near to the taught ones are the taught ones [rad]. */
 const SAME_RAD = 1e-4;
 
-/** Postures that are not the taught ones, or that no path leads through, at the end of a path, and joint moves that turn the arm over on the way to a pose. */
+/**
+ * Postures that are not the taught ones, or that no path leads through, at the end of a path, and joint moves that turn
+ * the arm over on the way to a pose.
+ */
 export function checkBranch(scene: CheckScene): void {
   const n = scene.robot.arm.joints.length;
   for (const segment of scene.layout.plan.segments) {
@@ -85,8 +88,9 @@ export function checkBranch(scene: CheckScene): void {
 }
 
 /**
- * Where a path over its whole length has no posture, in numbers: how far the best one gets and why, or before which step the
- * arm would have to turn over. Only where the plan itself is in trouble, since a blend may pass beside what stops the taught path.
+ * Where a path over its whole length has no posture, in numbers: how far the best one gets and why, or before which
+ * step the arm would have to turn over. Only where the plan itself is in trouble, since a blend may pass beside what
+ * stops the taught path.
  */
 export function checkImpasses(scene: CheckScene): void {
   const { layout, robot } = scene;

@@ -48,8 +48,8 @@ export interface Collisions {
 }
 
 /**
- * Proves every motion of the plan free of contact, between the nodes as well, with the parts that are held on the way (`GraspedParts`);
- * standing still is covered by the motions that end there.
+ * Proves every motion of the plan free of contact, between the nodes as well, with the parts that are held on the way
+ * (`GraspedParts`); standing still is covered by the motions that end there.
  */
 export function checkCollision(scene: CheckScene, options: CollisionOptions): Collisions {
   const { cell, margin_m } = options;

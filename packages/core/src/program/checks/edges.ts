@@ -43,9 +43,9 @@ function edgesOf(mesh: TriangleMesh): FeatureEdges {
 }
 
 /**
- * Whether traced paths still lie on their edges: the distance of every taught point, and of the tool on its way between two of
- * them, from the edge where its object stands now. A path that was not moved along with its object, or whose object has another
- * shape now, is off by that distance [m].
+ * Whether traced paths still lie on their edges: the distance of every taught point, and of the tool on its way between
+ * two of them, from the edge where its object stands now. A path that was not moved along with its object, or whose
+ * object has another shape now, is off by that distance [m].
  */
 export function checkEdges(scene: CheckScene, cell: CellGeometry): void {
   const groups = Object.entries(scene.program.groups).flatMap(([id, group]) => {

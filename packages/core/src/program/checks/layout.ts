@@ -32,7 +32,10 @@ export interface Obstacle {
   readonly at_s: number;
 }
 
-/** A move that no posture of its path gets through, with how far the best gets, or before which the arm would have to turn over. */
+/**
+ * A move that no posture of its path gets through, with how far the best gets, or before which the arm would have to
+ * turn over.
+ */
 export type Impasse = { readonly move: Move; readonly broken: Break } | { readonly move: Move; readonly flip: Flip };
 
 export interface Ends {
@@ -55,7 +58,10 @@ export interface Layout {
   readonly notes: readonly PlanNote[];
   readonly obstacles: readonly Obstacle[];
   readonly impasses: readonly Impasse[];
-  /** The postures at both ends of a taught move, before blending, by id; only of paths with something to choose or to follow. */
+  /**
+   * The postures at both ends of a taught move, before blending, by id; only of paths with something to choose or to
+   * follow.
+   */
   readonly ends: ReadonlyMap<string, Ends>;
   /** The moves by id. */
   readonly moves: ReadonlyMap<string, Move>;
@@ -88,8 +94,8 @@ const SAME_RAD = 1e-9;
 
 /**
  * Like `planProgram`, but goes on behind a step that cannot be carried out, from the posture its target would have, and
- * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40). Both sides of a decision are laid
- * out, and what follows from every posture they lead to. Postures are chosen as `planProgram` chooses them.
+ * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40). Both sides of a decision are
+ * laid out, and what follows from every posture they lead to. Postures are chosen as `planProgram` chooses them.
  */
 export function prepareJob(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
   const sheet = new Sheet(program, robot, options);

@@ -101,7 +101,8 @@ export class Extremes {
         const d0 = qd_rad_s[a]!;
         const d1 = qd_rad_s[a + n]!;
         const rise = (q_rad[a + n]! - q_rad[a]!) / h;
-        // The cubic's derivative in Bernstein form is d0, m, d1: without a change of sign there is no turning point inside.
+        // The cubic's derivative in Bernstein form is d0, m, d1: without a change of sign there is no turning point
+        // inside.
         const m = 3 * rise - d0 - d1;
         if ((d0 >= 0 && m >= 0 && d1 >= 0) || (d0 <= 0 && m <= 0 && d1 <= 0)) continue;
         // (d0 − 2m + d1) u² + 2 (m − d0) u + d0 = 0, solved without cancellation.

@@ -8,7 +8,9 @@ import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
 import { startOf, type CheckScene } from "./scene.ts";
 
-/** Targets and paths the arm cannot get to: too far, too near, no posture inside the limits, no circle, no way through. */
+/**
+ * Targets and paths the arm cannot get to: too far, too near, no posture inside the limits, no circle, no way through.
+ */
 export function checkReach(scene: CheckScene): void {
   for (const { move, stop, at_s } of scene.layout.obstacles) {
     const stuck = explainStop(stop, move, scene.robot);

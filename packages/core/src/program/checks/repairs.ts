@@ -17,7 +17,10 @@ const SHIFTS_M = [0.01, 0.02, 0.05, 0.1, 0.2];
 const MOST_REPAIRS = 3;
 type PoseTarget = Extract<Target, { pose: unknown }>;
 
-/** Steps like this one that can be reached, three at most: another posture, the tool tilted, turned about itself, the target shifted; the least change of each kind. */
+/**
+ * Steps like this one that can be reached, three at most: another posture, the tool tilted, turned about itself, the
+ * target shifted; the least change of each kind.
+ */
 export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repair[] {
   const target = move.step.target;
   if (!("pose" in target)) return [];

@@ -8,7 +8,10 @@ import { startOf, type CheckScene } from "./scene.ts";
 /** A stand's face this near to the base is what the robot stands on [m]. */
 const ON_TOP_M = 0.02;
 
-/** The object the robot stands on, of those that say what they carry: its box holds the base's origin, its face is there. */
+/**
+ * The object the robot stands on, of those that say what they carry: its box holds the base's origin, its face is
+ * there.
+ */
 export function standOf({ worldFromBase, objects }: CellGeometry): CellObject | undefined {
   const baseFromWorld = inverse(worldFromBase);
   const place: Vector3 = [0, 0, 0];

@@ -10,8 +10,8 @@ import { slower } from "./slower.ts";
 import type { CheckScene } from "./scene.ts";
 
 /**
- * Torques of the plan against what the joints can give (rows X-10, X-46, L-15, L-70): a step that asks too much is named with the joint
- * and its torque, the speed at which it would hold, and the load with which it would.
+ * Torques of the plan against what the joints can give (rows X-10, X-46, L-15, L-70): a step that asks too much is
+ * named with the joint and its torque, the speed at which it would hold, and the load with which it would.
  *
  * @param carried  the load before the first payload step.
  */

@@ -1,7 +1,9 @@
 import type { Condition } from "../program.ts";
 import type { Reader } from "./reader.ts";
 
-/** A signal and what it is compared with. That the signal exists is for the checker to say: it can be connected later. */
+/**
+ * A signal and what it is compared with. That the signal exists is for the checker to say: it can be connected later.
+ */
 export function readCondition(reader: Reader, value: unknown, path: string, what: string): Condition | undefined {
   const fields = reader.object(value, path, `the condition of ${what}`);
   if (fields === undefined) return undefined;

@@ -41,7 +41,10 @@ const STARTS = 12;
 const randomWithin = ({ arm }: Robot, random: Random): number[] =>
   arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + random() * (upper_rad - lower_rad));
 
-/** Square from axis 1 (from axis 2, of an arm with a closed form that is not ortho-parallel) to the wrist; of others from joint 2 to the flange [m]. */
+/**
+ * Square from axis 1 (from axis 2, of an arm with a closed form that is not ortho-parallel) to the wrist; of others
+ * from joint 2 to the flange [m].
+ */
 function lengthOf({ arm, family, reachMeasuredTo }: Robot): (q_rad: readonly number[]) => number {
   const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
   const flange = identity<"base", "flange">();

@@ -48,7 +48,10 @@ const AXES: Readonly<Record<string, Vector3>> = {
   "-z": [0, 0, -1],
 };
 
-/** The robot of an entry: its arm from the table, its closed form read off the axes, what is not published assumed and said. */
+/**
+ * The robot of an entry: its arm from the table, its closed form read off the axes, what is not published assumed and
+ * said.
+ */
 export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
   const { id, name, home_deg, frames, unverified } = entry;
   const { arm, baseFromVendorWorld } = armOfTable(name, entry.table);
@@ -69,7 +72,9 @@ export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
   return { ...robot, shapeError_m, home_rad: home_deg?.map(radians) ?? homeOf(arm, robot.family) };
 }
 
-/** Reads a table of an entry. Throws where a line has no number: the tables are data of this repository, held by a test. */
+/**
+ * Reads a table of an entry. Throws where a line has no number: the tables are data of this repository, held by a test.
+ */
 function armOfTable(
   name: string,
   table: string,

@@ -7,8 +7,9 @@ const HALF = Math.PI / 2;
 const TURN = 2 * Math.PI;
 
 /**
- * Where an arm of the catalogue starts, away from singular postures: the upper arm upright, the forearm level, the tool down as
- * far as the limits allow, where the closed form says which angles these are; else every second joint is bent by 45°.
+ * Where an arm of the catalogue starts, away from singular postures: the upper arm upright, the forearm level, the tool
+ * down as far as the limits allow, where the closed form says which angles these are; else every second joint is bent
+ * by 45°.
  */
 export function homeOf(arm: SerialArm, family: KinematicFamily): readonly number[] {
   if (family.kind === "general")

@@ -15,8 +15,8 @@ import {
 } from "./write.ts";
 
 /**
- * Joint 3 is counted against the upper arm. The pendant counts it against the horizon: J3 of the pendant = joint 3 − joint 2.
- * The controller counts from the height of axis 2.
+ * Joint 3 is counted against the upper arm. The pendant counts it against the horizon: J3 of the pendant = joint 3 −
+ * joint 2. The controller counts from the height of axis 2.
  */
 export const fanucLrmate200id: Robot = {
   id: "fanuc_lrmate200id",

@@ -10,9 +10,9 @@ import {
 } from "./write.ts";
 
 /**
- * Limits, motors, gears and masses are published (rows L-18 … L-20); lengths are not, by anybody: they are made up here.
- * Table 1 of the paper prints a damping of 5734.75 for joint 3 where its own formula gives 5743.76 (E-09); gains are
- * computed from these numbers, never copied.
+ * Limits, motors, gears and masses are published (rows L-18 … L-20); lengths are not, by anybody: they are made up
+ * here. Table 1 of the paper prints a damping of 5734.75 for joint 3 where its own formula gives 5743.76 (E-09); gains
+ * are computed from these numbers, never copied.
  */
 export const lolaRl15: Robot = {
   id: "lola_rl15_placeholder",

@@ -58,7 +58,10 @@ export const joint = (
   limits: JointLimits,
 ): Joint => ({ name, axis, parentFromJoint: "position" in placed ? placed : pose(placed), limits });
 
-/** A joint whose speed and torque follow from its motor and gear: speed = motor speed / gear, torque = motor torque · gear. */
+/**
+ * A joint whose speed and torque follow from its motor and gear: speed = motor speed / gear, torque = motor torque ·
+ * gear.
+ */
 export const drivenJoint = (
   name: string,
   placed: Vector3,

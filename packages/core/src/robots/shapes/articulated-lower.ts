@@ -109,7 +109,10 @@ export function base(at: Standing): LinkDesign {
   };
 }
 
-/** The turret: a round foot on axis 1 that grows, and leans out where axis 2 stands ahead, into the drum of axis 2, with that axis's motor on the far side. */
+/**
+ * The turret: a round foot on axis 1 that grows, and leans out where axis 2 stands ahead, into the drum of axis 2, with
+ * that axis's motor on the far side.
+ */
 export function shoulder(at: Standing): LinkDesign {
   const s = at.size;
   const { x, z } = at.axis1;

@@ -16,7 +16,10 @@ export type FormRing = readonly [
   r01: number,
 ];
 
-/** A casting drawn through rings along one axis of its link's frame. u and v are the next two axes: along y, u is z and v is x. */
+/**
+ * A casting drawn through rings along one axis of its link's frame. u and v are the next two axes: along y, u is z and
+ * v is x.
+ */
 export interface FormLoft {
   readonly along: "x" | "y" | "z";
   /** How far the first and the last edge are rounded [mm]; 0 where the casting goes on in another. */

@@ -53,7 +53,9 @@ export function stadium(a: Point2, ra_m: number, b: Point2, rb_m: number, steps 
   };
 }
 
-/** Rectangle 2·halfU × 2·halfV with round corners. A radius of both halves is a circle with the same number of points. */
+/**
+ * Rectangle 2·halfU × 2·halfV with round corners. A radius of both halves is a circle with the same number of points.
+ */
 export function roundedRectangle(
   halfU_m: number,
   halfV_m: number,

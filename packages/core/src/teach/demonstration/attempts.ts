@@ -35,7 +35,8 @@ const lengthOf = ({ worldFromTcp }: Demonstration): number =>
 const durationOf = ({ times_s }: Demonstration): number => times_s.at(-1)! - times_s[0]!;
 
 /**
- * How well an attempt follows the expert's (rows M-61, M-62): the mean of three parts, each 1 when as good as the expert's,
+ * How well an attempt follows the expert's (rows M-61, M-62): the mean of three parts, each 1 when as good as the
+ * expert's,
  *
  *   accuracy = 1 / (1 + rms / fair),   time = min(1, T_expert / T),   economy = min(1, L_expert / L)
  *

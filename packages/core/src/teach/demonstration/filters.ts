@@ -14,7 +14,10 @@ export interface FilterOptions {
   readonly straight_rad: number;
   /** Straight stretches shorter than this between bends belong to the curve around them [m]. */
   readonly leastStraight_m: number;
-  /** "averaged": control points are means of 5 to 10 samples, as published. "fitted": by least squares, nearer to the hand. */
+  /**
+   * "averaged": control points are means of 5 to 10 samples, as published. "fitted": by least squares, nearer to the
+   * hand.
+   */
   readonly curves: "averaged" | "fitted";
 }
 /** For a hand with a tremor of a millimetre or two, recorded 50 to 100 times a second. */
@@ -53,9 +56,9 @@ export interface FilteredDemonstration {
 const PER_CURVE = 6;
 
 /**
- * The three filters (rows M-38 to M-41), in their order: (a) samples of a hand that stands become their mean, x̄ = Σ x / N;
- * (b) of a straight stretch the start and the end are kept; (c) the rest becomes cubic Bézier curves. A change of the grip
- * on the way is a stop of its own. Filters apply to the tracker alone, never to the hand's grip (row M-37).
+ * The three filters (rows M-38 to M-41), in their order: (a) samples of a hand that stands become their mean, x̄ = Σ x
+ * / N; (b) of a straight stretch the start and the end are kept; (c) the rest becomes cubic Bézier curves. A change of
+ * the grip on the way is a stop of its own. Filters apply to the tracker alone, never to the hand's grip (row M-37).
  *
  * @see Malaya, VR teaching with data glove, Eq 6 and Fig 8.
  */
@@ -95,7 +98,10 @@ interface Stop {
   readonly pose: Pose<"world", "tcp">;
 }
 
-/** Filter a: where samples stay within `rest_m` of their running mean for `rest_s`, and where the grip changes on the way. */
+/**
+ * Filter a: where samples stay within `rest_m` of their running mean for `rest_s`, and where the grip changes on the
+ * way.
+ */
 function stopsOf({ times_s, worldFromTcp, closed }: Demonstration, { rest_m, rest_s }: FilterOptions): Stop[] {
   const stops: Stop[] = [];
   const stopOf = (first: number, last: number): Stop => ({ first, last, pose: meanPose(worldFromTcp, first, last) });
@@ -182,8 +188,8 @@ function bends(way: Way, pieces: readonly { first: number; last: number }[], n: 
 }
 
 /**
- * The last sample up to which everything stays near the chord, looked for from the far end: a tremor may spoil a short chord
- * of a line whose long ones are fine.
+ * The last sample up to which everything stays near the chord, looked for from the far end: a tremor may spoil a short
+ * chord of a line whose long ones are fine.
  */
 function straightUntil(way: Way, first: number, to: number, options: FilterOptions): number {
   let good = first + 1;

@@ -14,7 +14,10 @@ export interface HandProfile {
 
 /** Thumb to little finger. */
 export const FINGERS = 5;
-/** The hand is closed from this mean bend of its fingers on, and open again below the other: a trembling hand is no gripper. */
+/**
+ * The hand is closed from this mean bend of its fingers on, and open again below the other: a trembling hand is no
+ * gripper.
+ */
 export const CLOSED_FROM_RAD = radians(50);
 export const OPEN_BELOW_RAD = radians(35);
 

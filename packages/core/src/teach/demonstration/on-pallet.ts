@@ -8,10 +8,12 @@ export type OnPallet =
   | { readonly kind: "refused"; readonly sentence: string };
 
 /**
- * One shown pick-and-place becomes one for every place of a pallet (row M-54): points nearer to where the gripper closed stay
- * where they are, points nearer to where it opened are done in the frame of the place. The shown place is the pallet's first.
+ * One shown pick-and-place becomes one for every place of a pallet (row M-54): points nearer to where the gripper
+ * closed stay where they are, points nearer to where it opened are done in the frame of the place. The shown place is
+ * the pallet's first.
  *
- * @param program  a program of moves with one closing and one opening of the gripper; moves are poses, not joint angles.
+ * @param program  a program of moves with one closing and one opening of the gripper; moves are poses, not joint
+ *   angles.
  * @param name     of the pallet, which no frame has.
  */
 export function repeatOnPallet(program: Program, name: string, pallet: Pallet): OnPallet {

@@ -56,7 +56,10 @@ test("M-24 M-28 closing the hand beyond 50° picks, opening it below 35° places
   expect(handBend([NaN, -1, 5000, 1.5, Infinity], ana)).toBe(0);
 });
 
-/** 50 lines a second of a hand that goes 0.25 m along its own x, a quarter turn about z in the world, and closes at the end. */
+/**
+ * 50 lines a second of a hand that goes 0.25 m along its own x, a quarter turn about z in the world, and closes at the
+ * end.
+ */
 function raw(): string {
   const V = (a: number): number => (a - accelerometer.intercept_mps2) / accelerometer.slope_mps2_per_V;
   const lines = Array.from({ length: 151 }, (_, i) => {

@@ -10,11 +10,12 @@ import { accelerationOf, HIGHEST_V, integrateTracker, TRACKER_DEFAULTS, type Tra
 export const RAW_HAND_COLUMNS = ["t_s", "ax_V", "ay_V", "az_V", "qx", "qy", "qz", "qw", "f1", "f2", "f3", "f4", "f5"];
 
 /**
- * A demonstration from what glove and tracker measured (rows M-24 to M-37): voltages become accelerations by the profile's
- * line, these positions by integrating twice, fingers the grip. The tracker's accelerations are along its own axes and free
- * of gravity; its orientation turns them into the world.
+ * A demonstration from what glove and tracker measured (rows M-24 to M-37): voltages become accelerations by the
+ * profile's line, these positions by integrating twice, fingers the grip. The tracker's accelerations are along its own
+ * axes and free of gravity; its orientation turns them into the world.
  *
- * @param text   lines of `RAW_HAND_COLUMNS`, values between commas, "#" begins a comment; the first line may name the columns.
+ * @param text   lines of `RAW_HAND_COLUMNS`, values between commas, "#" begins a comment; the first line may name the
+ *   columns.
  * @param start  where the tool is at the first sample.
  */
 export function readRawHand(

@@ -28,7 +28,9 @@ const PICK: Vector3 = [0.5, -0.2, 0.2];
 const PLACE: Vector3 = [0.5, 0.2, 0.2];
 const above = ([x, y, z]: Vector3): Vector3 => [x, y, z + 0.15];
 
-/** A hand that goes through these places in straight lines at 0.2 m/s, rests half a second at each, closed in between. */
+/**
+ * A hand that goes through these places in straight lines at 0.2 m/s, rests half a second at each, closed in between.
+ */
 function pickAndPlace(noise_m = 0, seed = 1): Demonstration {
   const random = seededRandom(seed);
   const places: readonly Vector3[] = [above(PICK), PICK, above(PICK), above(PLACE), PLACE, above(PLACE)];

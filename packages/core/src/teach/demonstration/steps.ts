@@ -15,7 +15,9 @@ export interface DemonstratedSteps {
   readonly approach: { readonly ratio: number };
   /** Rests of the hand of at least this long become waits of the same length [s]; Infinity leaves them out. */
   readonly waitsFrom_s: number;
-  /** Straights take exactly as long as the hand took; otherwise they go at its mean speed, which every language can say. */
+  /**
+   * Straights take exactly as long as the hand took; otherwise they go at its mean speed, which every language can say.
+   */
   readonly exactDurations?: boolean;
   /** Ids begin with it. */
   readonly prefix?: string;
@@ -26,8 +28,8 @@ const SLOWEST_MPS = 0.005;
 const FASTEST_MPS = 1.5;
 
 /**
- * The steps of a filtered demonstration (row L-32): PTP to the first point, then with the hand's own timing: a straight is
- * one LIN and a curve a chain of splines at the hand's mean speed there, a stop of at least
+ * The steps of a filtered demonstration (row L-32): PTP to the first point, then with the hand's own timing: a straight
+ * is one LIN and a curve a chain of splines at the hand's mean speed there, a stop of at least
  * `waitsFrom_s` a wait, and a change of the grip a gripper step.
  */
 export function stepsOfDemonstration(

@@ -22,8 +22,8 @@ export const DEMONSTRATION_COLUMNS = [
 const unreadable = (line: number, sentence: string): ReadDemonstration => ({ kind: "unreadable", line, sentence });
 
 /**
- * Reads a recorded hand from a table: one line a sample, values between commas, semicolons or tabs, "#" begins a comment,
- * the first other line names the columns in any order.
+ * Reads a recorded hand from a table: one line a sample, values between commas, semicolons or tabs, "#" begins a
+ * comment, the first other line names the columns in any order.
  *
  * t_s (or t_ms), x_m y_m z_m (or x_mm …), then either qx qy qz qw or rx_deg ry_deg rz_deg (about the fixed axes x, then
  * y, then z); without an orientation every sample has `down`. closed: 0 or 1, the hand holds something. Other columns,

@@ -60,7 +60,10 @@ export const accelerationOf = (voltage_V: number, { slope_mps2_per_V, intercept_
   slope_mps2_per_V * voltage_V + intercept_mps2;
 
 export interface TrackerOptions {
-  /** The cut-off line (row M-33): an acceleration below it in all three axes is a fluctuation at rest, and counts as zero. */
+  /**
+   * The cut-off line (row M-33): an acceleration below it in all three axes is a fluctuation at rest, and counts as
+   * zero.
+   */
   readonly cutOff_mps2: number;
   /** After the tracker stayed below the cut-off line for this long it stands: its velocity is set to zero. */
   readonly standingAfter_s: number;
@@ -79,8 +82,8 @@ export interface TrackedWay {
  *
  *   v = u + a t,   s = u t + ½ a t²
  *
- * The cut-off line alone leaves the velocity that wrong accelerations added up to; standing still resets it (a zero-velocity
- * update), and only the velocity: the position that was reached stays.
+ * The cut-off line alone leaves the velocity that wrong accelerations added up to; standing still resets it (a
+ * zero-velocity update), and only the velocity: the position that was reached stays.
  */
 export function integrateTracker(
   times_s: readonly number[],

@@ -31,15 +31,23 @@ const AWAY = 0.01;
 const FRAMES = 600;
 /** How far the tip may stray from the straight way [m, rad] where nothing was blocked. */
 const STRAYS = 1e-6;
-/** At one of these shares farther on, up to a frame's, no posture may exist where a jog was stopped by the end of the reach, with joints 1, 2, 3 and 5 so near to where it stopped [rad]. */
+/**
+ * At one of these shares farther on, up to a frame's, no posture may exist where a jog was stopped by the end of the
+ * reach, with joints 1, 2, 3 and 5 so near to where it stopped [rad].
+ */
 const FARTHER = Array.from({ length: 60 }, (_, k) => 5e-5 * 1.115 ** k);
 const NEAR_RAD = 0.2;
-/** The joint whose turning makes the arm singular: 2 brings the wrist over axis 1, 3 stretches or folds the arm, 5 straightens the wrist. */
+/**
+ * The joint whose turning makes the arm singular: 2 brings the wrist over axis 1, 3 stretches or folds the arm, 5
+ * straightens the wrist.
+ */
 export type SingularJoint = 2 | 3 | 5;
 /**
- * What became of the jogs. A jog out has `left` when it moved on without a pause until half of its way was done (`through`), or until
- * another joint's limit stopped it away from the singularity, or the end of the reach anywhere (a stretched arm cannot be pulled
- * longer): then `allBranches` finds no posture a little farther on anywhere near (`explained`). One that a joint's limit, named, keeps from turning in place far enough is `limited`. All others are `stuck`.
+ * What became of the jogs. A jog out has `left` when it moved on without a pause until half of its way was done
+ * (`through`), or until another joint's limit stopped it away from the singularity, or the end of the reach anywhere (a
+ * stretched arm cannot be pulled longer): then `allBranches` finds no posture a little farther on anywhere near
+ * (`explained`). One that a joint's limit, named, keeps from turning in place far enough is `limited`. All others are
+ * `stuck`.
  */
 export interface SingularJogs {
   readonly jogs: number;
@@ -66,8 +74,9 @@ export interface Stuck {
 type Outcome = "through" | "explained" | "limited" | Stuck;
 
 /**
- * Random jogs into a singularity and out of it again. Each: a posture exactly on it, found by the sign of det J along one joint; a
- * jog towards it from a posture beside it; and from the singular posture itself a jog towards another posture beside it.
+ * Random jogs into a singularity and out of it again. Each: a posture exactly on it, found by the sign of det J along
+ * one joint; a jog towards it from a posture beside it; and from the singular posture itself a jog towards another
+ * posture beside it.
  *
  * @param clock_ms  for the time a frame takes; without one it is 0.
  */

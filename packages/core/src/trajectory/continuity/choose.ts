@@ -6,7 +6,9 @@ import { ContinuitySolver, type Break, type Continuity, type Flip } from "./cont
 export interface Choice {
   /** How the arm goes. */
   readonly way: Continuity;
-  /** Whether postures had to be chosen: a controller that takes the nearest one at every target would not go this way. */
+  /**
+   * Whether postures had to be chosen: a controller that takes the nearest one at every target would not go this way.
+   */
   readonly chosen: boolean;
   /** Moves that no posture gets through unless the arm turns over somewhere before them, */
   readonly broken: readonly Break[];
@@ -18,7 +20,10 @@ export interface Choice {
 export const isFree = (move: Move): boolean =>
   move.step.path === "ptp" && move.q_rad === undefined && move.branch === undefined;
 
-/** How bad a way is before time counts: paths nobody gets through, postures changed at a standstill or other than taught, flips. */
+/**
+ * How bad a way is before time counts: paths nobody gets through, postures changed at a standstill or other than
+ * taught, flips.
+ */
 function faults({ breaks, flips, otherwise }: Continuity): readonly [number, number, number] {
   const stood = flips.filter(({ kind }) => kind === "standstill").length;
   return [breaks.length, stood + otherwise.length, flips.length - stood];
@@ -32,7 +37,8 @@ function fewer(a: Continuity, b: Continuity): boolean {
 
 /**
  * Chooses the postures of a whole path. Where the nearest posture at every target leads through without a flip, it is
- * taken: that is what controllers do by themselves. Else all postures are weighed, and chosen where fewer things go wrong.
+ * taken: that is what controllers do by themselves. Else all postures are weighed, and chosen where fewer things go
+ * wrong.
  *
  * @returns undefined where the path has nothing to choose and nothing to follow.
  */

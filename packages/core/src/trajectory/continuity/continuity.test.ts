@@ -40,7 +40,10 @@ const frameFromTcp = (robot: Robot, q: readonly number[]): Pose<"frame", "tcp"> 
   return { position, quaternion };
 };
 
-/** Joint moves to poses with straight moves in between; every straight move ends where some posture of its start can get to. */
+/**
+ * Joint moves to poses with straight moves in between; every straight move ends where some posture of its start can get
+ * to.
+ */
 function pathOf(robot: Robot, seed: number, kinds: readonly ("ptp" | "lin")[], share = 0.5): MoveStep[] {
   const random = seededRandom(seed);
   let q = anywhere(robot, random, share);

@@ -16,7 +16,9 @@ import { StretchFollower, type Lost } from "./stretch.ts";
 
 /** A joint move that turns a joint further than this and changes the branch turns the arm over [rad]. */
 export const FLIP_RAD = radians(150);
-/** Penalties [s]: a flip is worth a detour of a thousand seconds; what cannot be driven as taught, any number of flips. */
+/**
+ * Penalties [s]: a flip is worth a detour of a thousand seconds; what cannot be driven as taught, any number of flips.
+ */
 export const FLIP_S = 1e3;
 export const OTHERWISE_S = 1e6;
 export const STANDSTILL_S = 1e6;
@@ -26,7 +28,10 @@ const TAUGHT_RAD = 1e-4;
 /** Two postures this near are one [rad]. */
 const SAME_RAD = 1e-6;
 
-/** The arm turns over: on a joint move, or, before a move that allows no other way, at a standstill that no step asks for. Joint counts from 1. */
+/**
+ * The arm turns over: on a joint move, or, before a move that allows no other way, at a standstill that no step asks
+ * for. Joint counts from 1.
+ */
 export interface Flip {
   readonly kind: "joint-move" | "standstill";
   /** Counts from 0 over all moves. */

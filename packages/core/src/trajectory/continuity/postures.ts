@@ -25,8 +25,8 @@ export const codeOf = (branch: Branch | undefined): number =>
       (branch.determinant === "negative" ? 8 : 0);
 
 /**
- * Every posture of a pose: all branches, and of each all copies by whole turns of the joints that turn, inside limits and
- * workspace. An arm of seven joints keeps the elbow angle of `near`, or takes the nearest its limits allow.
+ * Every posture of a pose: all branches, and of each all copies by whole turns of the joints that turn, inside limits
+ * and workspace. An arm of seven joints keeps the elbow angle of `near`, or takes the nearest its limits allow.
  */
 export class ConfigurationFinder {
   private readonly robot: Robot;

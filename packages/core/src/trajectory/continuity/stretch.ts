@@ -28,12 +28,16 @@ export const CONTINUITY_RAD = 0.1;
 const LOOK_M = 0.05;
 /** and when this part of the path is still too far for the joints, they jump. */
 const SHORTEST_SHARE = 1 / 4096;
-/** Where a joint turns faster than this many radians per whole path, the path is laid out as the planner does it, to see whether it can. */
+/**
+ * Where a joint turns faster than this many radians per whole path, the path is laid out as the planner does it, to see
+ * whether it can.
+ */
 const STEEP_RAD = 3;
 
 /**
- * Keeps one posture along a TCP path in steps small enough that it cannot be mistaken for another one: a step that moves
- * a joint by more than `CONTINUITY_RAD` is halved. One instance per caller; it allocates only where a posture is lost.
+ * Keeps one posture along a TCP path in steps small enough that it cannot be mistaken for another one: a step that
+ * moves a joint by more than `CONTINUITY_RAD` is halved. One instance per caller; it allocates only where a posture is
+ * lost.
  */
 export class StretchFollower {
   /** Of the last path: Σ max |Δq| / speed over its steps [s]. */
@@ -136,7 +140,9 @@ export class StretchFollower {
     return undefined;
   }
 
-  /** Whether the planner gets along the path that was followed last, where that is in doubt. @param q  posture at its start. */
+  /**
+   * Whether the planner gets along the path that was followed last, where that is in doubt. @param q  posture at its start.
+   */
   confirm(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, q: ArrayLike<number>): Lost | undefined {
     if (!this.steep) return undefined;
     this.trial.set(q);

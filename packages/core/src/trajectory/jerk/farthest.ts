@@ -16,12 +16,13 @@ const ROUNDING = 1e-9;
  *   j T = 2 (x − y) + j (τ₁ + τ_V + τ₂) + a₁ − a₀
  *   j way = c₀ (x − a₀) + c₁ (x − y) + c₂ (a₁ − y) + (a₁³ − a₀³)/6j + j τ₁ (c₀ + c₁)/2 + j τ₂ (c₁ + c₂)/2 + j τ_V V
  *
- * For every T each case (no hold, one, both, cruise) is solved in closed form, with one square root at most. With sign −1
- * it is the mirrored problem: the least way, given as a negative number.
+ * For every T each case (no hold, one, both, cruise) is solved in closed form, with one square root at most. With sign
+ * −1 it is the mirrored problem: the least way, given as a negative number.
  *
  * @param out  receives seven durations [s].
  * @returns    sign · way; NaN when speed and acceleration of the end cannot be met at T.
- * @see Berscheid & Kröger, Jerk-limited real-time trajectory generation with arbitrary target states, RSS 2021, for the profiles.
+ * @see Berscheid & Kröger, Jerk-limited real-time trajectory generation with arbitrary target states, RSS 2021, for the
+ * profiles.
  */
 export function farthest(task: AxisTask, sign: 1 | -1, time_s: number, out: Float64Array): number {
   const j = task.jerk;

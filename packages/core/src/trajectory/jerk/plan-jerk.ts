@@ -24,17 +24,17 @@ const PLANNED: JerkAnswer = { kind: "planned" };
 const ROUNDING = 1e-9;
 
 /**
- * Plans jerk-limited motions: from any state within or outside the limits to any state that can be met, all axes arriving
- * together at the earliest instant at which each of them can. One per caller; planning allocates nothing.
+ * Plans jerk-limited motions: from any state within or outside the limits to any state that can be met, all axes
+ * arriving together at the earliest instant at which each of them can. One per caller; planning allocates nothing.
  *
- * With given end speeds and accelerations, the way an axis can make in time T takes every value between the least and the
- * farthest one, and a mixture of the two motions in fixed shares,
+ * With given end speeds and accelerations, the way an axis can make in time T takes every value between the least and
+ * the farthest one, and a mixture of the two motions in fixed shares,
  *
  *   u = θ u_farthest + (1 − θ) u_least,
  *
- * keeps all limits, because each of them is convex, and ends in the same speed and acceleration. So an axis that has time
- * left is given that mixture, and an axis for which T falls into a gap (it would have to come back) makes all wait for the
- * gap's end.
+ * keeps all limits, because each of them is convex, and ends in the same speed and acceleration. So an axis that has
+ * time left is given that mixture, and an axis for which T falls into a gap (it would have to come back) makes all wait
+ * for the gap's end.
  */
 export class JerkPlanner {
   private readonly axes: number;

@@ -21,16 +21,19 @@ const STEPS = 40;
 /**
  * Least time in which an axis gets from state to state.
  *
- * The ways that can be made in time T reach from `−farthest(−1)` to `farthest(+1)`. Before the first instant at which one of
- * the two is the way asked for, it cannot be made. While both start from the fastest change of speed, only one of them
- * can come first: the one towards which the way lies.
+ * The ways that can be made in time T reach from `−farthest(−1)` to `farthest(+1)`. Before the first instant at which
+ * one of the two is the way asked for, it cannot be made. While both start from the fastest change of speed, only one
+ * of them can come first: the one towards which the way lies.
  */
 export function shortestTime(task: AxisTask, scratch: ShortestScratch): number {
   const up = firstTime(task, 1, scratch);
   return up >= 0 ? up : firstTime(task, -1, scratch, true);
 }
 
-/** Every instant at which the way is the farthest (or least) one, not sorted. Between them it can or cannot be made throughout. */
+/**
+ * Every instant at which the way is the farthest (or least) one, not sorted. Between them it can or cannot be made
+ * throughout.
+ */
 export function meetingTimes(task: AxisTask, scratch: ShortestScratch): number {
   const between = familyTimes(task, 1, scratch, 0);
   return familyTimes(task, -1, scratch, between);
@@ -108,8 +111,8 @@ function earlyExcess(f: Family, y: number): number {
 }
 
 /**
- * First time at which the farthest way is the one asked for. −1 when it is farther than that from the start, so that the
- * other family comes first.
+ * First time at which the farthest way is the one asked for. −1 when it is farther than that from the start, so that
+ * the other family comes first.
  */
 function firstTime(task: AxisTask, sign: 1 | -1, scratch: ShortestScratch, last = false): number {
   const f = familyOf(task, sign);
@@ -184,7 +187,10 @@ function crossing(f: Family, begin: number): number {
   return timeOf(f, 2 * A + (j * (2 * c1 - S)) / A);
 }
 
-/** h with h³ + p h − k/h = r between two places at which the curve is below and above it: Newton from above, begun by a chord. */
+/**
+ * h with h³ + p h − k/h = r between two places at which the curve is below and above it: Newton from above, begun by a
+ * chord.
+ */
 function solveFree(low: number, high: number, below: number, above: number, p: number, k: number, r: number): number {
   if (below === 0) return low;
   let h = low + ((high - low) * below) / (below - above);

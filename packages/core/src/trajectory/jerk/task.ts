@@ -37,6 +37,8 @@ export function canBeLeft(v: number, a: number, speed: number, acceleration: num
   );
 }
 
-/** Whether a state can be arrived at without its speed having passed the limit: the same with time running backwards. */
+/**
+ * Whether a state can be arrived at without its speed having passed the limit: the same with time running backwards.
+ */
 export const canBeReached = (v: number, a: number, speed: number, acceleration: number, jerk: number): boolean =>
   canBeLeft(v, -a, speed, acceleration, jerk);

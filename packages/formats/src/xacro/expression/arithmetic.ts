@@ -57,7 +57,9 @@ function repeat(what: Value, times: Value, budget: Budget): Value | undefined {
     : new List(size === 0 ? [] : Array.from({ length: often * size }, (_, i) => what.items[i % size]!), what.isTuple);
 }
 
-/** Whole numbers; undefined where the answer is not whole. Division rounds down, the remainder has the divisor's sign. */
+/**
+ * Whole numbers; undefined where the answer is not whole. Division rounds down, the remainder has the divisor's sign.
+ */
 function whole(operator: string, a: bigint, b: bigint): bigint | undefined {
   switch (operator) {
     case "+":

@@ -1,6 +1,6 @@
 /**
- * A number with that many digits after the point, halves to the even neighbour as IEEE 754 has it. Whether it is a half is
- * seen in the digits of the number itself: 2.675 is not.
+ * A number with that many digits after the point, halves to the even neighbour as IEEE 754 has it. Whether it is a half
+ * is seen in the digits of the number itself: 2.675 is not.
  *
  * @param places  0 … 60.
  */

@@ -2,8 +2,8 @@ import { Refusal } from "../../refusal.ts";
 import { shorten } from "../../xml.ts";
 
 /**
- * A value of the expressions in a xacro. Whole numbers are bigint and others number, so that `4/2` is 2.0 and `4//2` is 2 as
- * their writers expect.
+ * A value of the expressions in a xacro. Whole numbers are bigint and others number, so that `4/2` is 2.0 and `4//2` is
+ * 2 as their writers expect.
  */
 export type Value = null | boolean | bigint | number | string | List | Dict | Callable | Names;
 export class List {

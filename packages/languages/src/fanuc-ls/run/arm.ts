@@ -12,9 +12,9 @@ import type { Config } from "../read/listing.ts";
 import { fromPose, inverted, times, toPose, type Matrix } from "./matrix.ts";
 
 /**
- * What the pendant of a robot shows: of the arm's joints in degrees, and from where it counts. The forearm is shown against the
- * horizon, so that joint 3 is what is shown and what joint 2 is bent forward besides. Positions count from where the axes of
- * joints 1 and 2 would meet.
+ * What the pendant of a robot shows: of the arm's joints in degrees, and from where it counts. The forearm is shown
+ * against the horizon, so that joint 3 is what is shown and what joint 2 is bent forward besides. Positions count from
+ * where the axes of joints 1 and 2 would meet.
  */
 interface Pendant {
   readonly forearmFollows: boolean;
@@ -82,8 +82,9 @@ export class ControllerArm {
   }
 
   /**
-   * The flange is there, in the posture that the configuration asks for, or in the nearest where it asks for none that exists.
-   * `turned` says that the posture is another turn of an axis than the nearest, `fits` that its letters are those asked for.
+   * The flange is there, in the posture that the configuration asks for, or in the nearest where it asks for none that
+   * exists. `turned` says that the posture is another turn of an axis than the nearest, `fits` that its letters are
+   * those asked for.
    */
   atFlange(
     flange: Matrix,
@@ -109,7 +110,10 @@ export class ControllerArm {
     return { branch: branchOf(robot, exact), q: exact, turned: exact !== nearest, fits: fitting.length > 0 };
   }
 
-  /** Flags read off the links: wrist in front of axis 1, elbow above the line from axis 2 to the wrist, axis 5 not below zero. */
+  /**
+   * Flags read off the links: wrist in front of axis 1, elbow above the line from axis 2 to the wrist, axis 5 not below
+   * zero.
+   */
   hasFlags(q: readonly number[], { flip, up, toward }: Config): boolean {
     const links = Array.from({ length: 7 }, () => identity<"base", "link">());
     linkPoses(this.robot.arm, q, links);

@@ -88,7 +88,10 @@ export class Machine extends BlockMachine<Value> {
   private readonly given: (readonly Value[])[] = [];
   private jump: number | undefined;
 
-  /** @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks for. */
+  /**
+   * @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks
+   *   for.
+   */
   constructor(
     source: Source,
     robot: Robot,

@@ -15,7 +15,9 @@ const inTurn = (angle: number): string => {
   return text === "-180.000" ? "180.000" : text;
 };
 
-/** X, Y, Z [mm] and W, P, R [deg], R = Rz(R)·Ry(P)·Rx(W). Where P is upright to the last digit W says nothing: it is 0. */
+/**
+ * X, Y, Z [mm] and W, P, R [deg], R = Rz(R)·Ry(P)·Rx(W). Where P is upright to the last digit W says nothing: it is 0.
+ */
 export function xyzwpr({ position, quaternion }: Pose): readonly [string, string, string, string, string, string] {
   const [w, p, r] = toFanucWpr(quaternion);
   const [x, y, z] = position.map(v => shown(v * 1000)) as [string, string, string];
@@ -25,7 +27,10 @@ export function xyzwpr({ position, quaternion }: Pose): readonly [string, string
   return [x, y, z, "0.000", pitch, inTurn(turn > 180 ? turn - 360 : turn <= -180 ? turn + 360 : turn)];
 }
 
-/** Joint angles as the pendant shows them. J3 counts from the J2 that is shown, so that the arm's own angle is as fine as the others. */
+/**
+ * Joint angles as the pendant shows them. J3 counts from the J2 that is shown, so that the arm's own angle is as fine
+ * as the others.
+ */
 export function pendantJoints(q_rad: ArrayLike<number>, { coupling }: PendantConvention): readonly string[] {
   const own = Array.from(q_rad, degrees);
   const second = shown(own[1]!);

@@ -47,14 +47,20 @@ const SHORT: Readonly<Record<SignalLine["kind"], string>> = {
   "analogue-out": "AO",
 };
 
-/** A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one is. */
+/**
+ * A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one
+ * is.
+ */
 interface PendantVisitor {
   readonly first: Pose<"frame", "place">;
   readonly frame: string;
   readonly offset: string;
 }
 
-/** Writes the programs; each says what changes from one step to the next, and everything anew where it may be entered another way. */
+/**
+ * Writes the programs; each says what changes from one step to the next, and everything anew where it may be entered
+ * another way.
+ */
 export class ProgramWriter extends StepWriter {
   readonly warnings = new Set<string>();
   private readonly convention: PendantConvention;
@@ -184,7 +190,10 @@ export class ProgramWriter extends StepWriter {
     this.begin();
   }
 
-  /** Loops over layers, lines and places: the present place is worked out, and its distance from the first shifts the taught points. */
+  /**
+   * Loops over layers, lines and places: the present place is worked out, and its distance from the first shifts the
+   * taught points.
+   */
   private pallet(step: PalletStep, add: (line: string) => void): void {
     const { program, baseFromWorld, robot } = this.place;
     const { registers } = this;

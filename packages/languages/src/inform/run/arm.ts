@@ -62,8 +62,8 @@ export class Arm {
   }
 
   /**
-   * Whether axis values are of that manipulator type: flip 0 / no flip 1 by the angle of R, upper 0 / lower arm 1, front 0 /
-   * rear 1, and R, T, S below 180° 0 / from 180° on 1.
+   * Whether axis values are of that manipulator type: flip 0 / no flip 1 by the angle of R, upper 0 / lower arm 1,
+   * front 0 / rear 1, and R, T, S below 180° 0 / from 180° on 1.
    */
   isOfType(
     axes_deg: readonly number[],
@@ -87,8 +87,8 @@ export class Arm {
   }
 
   /**
-   * In the plane of the arm, x ahead and z up: how far the wrist is in front of axis S, and on which side of the line from
-   * axis L to the wrist axis U is. L counts from upright to the front, U upwards from square to the upper arm.
+   * In the plane of the arm, x ahead and z up: how far the wrist is in front of axis S, and on which side of the line
+   * from axis L to the wrist axis U is. L counts from upright to the front, U upwards from square to the upper arm.
    */
   private planar(l_deg: number, u_deg: number): { readonly ahead_m: number; readonly above_m: number } {
     const { family } = this.robot;

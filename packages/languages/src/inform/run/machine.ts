@@ -24,7 +24,10 @@ interface Frame {
 /** An input is asked while what stands before it is not executed yet. Never leaves the machine. */
 class ReadTooEarly extends Error {}
 
-/** Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same steps. */
+/**
+ * Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same
+ * steps.
+ */
 export class Machine {
   private readonly memory: Memory;
   private readonly source: Source;
@@ -251,7 +254,8 @@ export class Machine {
     this.stack.push(newFrame(job));
   }
 
-  // Motion --------------------------------------------------------------------------------------------------------------
+  // Motion
+  // --------------------------------------------------------------------------------------------------------------
 
   private move(move: Extract<Statement, { kind: "move" }>, frame: Frame): void {
     const taken = this.taken.get(move.position);
@@ -335,7 +339,9 @@ export class Machine {
     this.idle = 0;
   }
 
-  /** Whether the job ends when a search met nothing: ABORT behind it, on the opposite of its condition. Goes past it. */
+  /**
+   * Whether the job ends when a search met nothing: ABORT behind it, on the opposite of its condition. Goes past it.
+   */
   private aborts(until: Condition, frame: Frame): boolean {
     const next = frame.job.instructions[frame.at];
     if (next?.kind !== "statement" || next.statement.kind !== "abort" || next.statement.when === undefined)
@@ -370,7 +376,8 @@ export class Machine {
     return undefined;
   }
 
-  // What comes out ------------------------------------------------------------------------------------------------------
+  // What comes out
+  // ------------------------------------------------------------------------------------------------------
 
   private settle(goesOn: boolean): void {
     const { pending } = this;

@@ -201,7 +201,8 @@ export class JobWriter {
     return `${kind === "digital-in" ? "IN" : "OT"}#(${address})=${("is" in when && when.is) !== opposite ? "ON" : "OFF"}`;
   }
 
-  // Motion --------------------------------------------------------------------------------------------------------------
+  // Motion
+  // --------------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
     const { place, postures: configurations } = this.setting;

@@ -20,7 +20,10 @@ export function jobName(name: string, taken: Set<string>): string {
   }
 }
 
-/** What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are dropped. */
+/**
+ * What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are
+ * dropped.
+ */
 export const commentText = (name: string, length = COMMENT_LENGTH): string =>
   asciiText(name)
     .replace(/^[*='\s]+/, "")

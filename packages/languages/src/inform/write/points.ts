@@ -106,8 +106,9 @@ export class Points {
   }
 
   /**
-   * The joint angles in which the rounded text is reached in the posture of `q_rad`. With the wrist centre close to axis S the
-   * last digit turns S and R by whole degrees: flags of the angles that were meant could name another posture.
+   * The joint angles in which the rounded text is reached in the posture of `q_rad`. With the wrist centre close to
+   * axis S the last digit turns S and R by whole degrees: flags of the angles that were meant could name another
+   * posture.
    */
   private reachedByText(frame: string, tool: string, text: string, q_rad: ArrayLike<number>): ArrayLike<number> {
     const branch = branchOf(this.robot, q_rad);
@@ -117,7 +118,8 @@ export class Points {
       baseFromFlange,
       branch === undefined ? { near: q_rad } : { near: q_rad, branch },
     );
-    // At the very end of the reach the last digit can lie outside: then the angles that were meant are the best there is.
+    // At the very end of the reach the last digit can lie outside: then the angles that were meant are the best there
+    // is.
     return reach.kind === "reached" ? reach.solutions[0]!.q_rad : q_rad;
   }
 

@@ -13,9 +13,9 @@ export type ConfigurationMap = ReadonlyMap<string, Posture>;
 export type Configurations = { readonly kind: "postures"; readonly of: ConfigurationMap } | Cannot;
 
 /**
- * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with least
- * travel from the point before, in the order of execution. Stops at the first point that cannot be reached or lies outside
- * the limits.
+ * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with
+ * least travel from the point before, in the order of execution. Stops at the first point that cannot be reached or
+ * lies outside the limits.
  *
  * @param inPulses  points on the way of arcs are written as joint angles too, so they must be reached.
  */

@@ -113,8 +113,8 @@ const RULES: ExpressionRules = {
 /** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
 
 /**
- * A text that was read: what a person called it, the program that is started, and those that it calls, under the name `call x`. The
- * lists of locations come first in it.
+ * A text that was read: what a person called it, the program that is started, and those that it calls, under the name
+ * `call x`. The lists of locations come first in it.
  */
 export interface Source {
   readonly title: string;

@@ -18,7 +18,10 @@ export interface Posture {
   readonly wrist?: "uwrist" | "dwrist";
 }
 
-/** What the controller knows of its arm: JT2 leans the upper arm forwards by its value, JT3 takes the forearm back from it. */
+/**
+ * What the controller knows of its arm: JT2 leans the upper arm forwards by its value, JT3 takes the forearm back from
+ * it.
+ */
 interface Lengths {
   readonly upper_mm: number;
   readonly fore_mm: number;
@@ -66,7 +69,10 @@ export class ControllerArm {
     this.flange = this.tool === NULL ? tip : times(tip, inverted(this.tool));
   }
 
-  /** The posture that words ask for at a place; what they leave open is as near as possible to where the arm was. Undefined when there is none. */
+  /**
+   * The posture that words ask for at a place; what they leave open is as near as possible to where the arm was.
+   * Undefined when there is none.
+   */
   branchAt(place: Matrix, words: Posture): Branch | undefined {
     const flange = times(times(this.base, place), inverted(this.tool));
     const reach = solveAll(
@@ -90,7 +96,8 @@ export class ControllerArm {
   }
 
   /**
-   * RIGHTY: the wrist is in front of the axis of JT1. ABOVE: the elbow is above the line from shoulder to wrist. UWRIST: JT5 > 0.
+   * RIGHTY: the wrist is in front of the axis of JT1. ABOVE: the elbow is above the line from shoulder to wrist.
+   * UWRIST: JT5 > 0.
    *
    *   reach = upper · sin JT2 + fore · sin(JT2 − JT3)
    */

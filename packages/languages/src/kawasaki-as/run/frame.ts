@@ -76,7 +76,10 @@ export const shifted = ({ r, p }: Matrix, x: number, y: number, z: number): Matr
   p: [p[0] + x, p[1] + y, p[2] + z],
 });
 
-/** FRAME: origin in the fourth point, x along from the first to the second, y on the side of the third. Undefined when they do not span a plane. */
+/**
+ * FRAME: origin in the fourth point, x along from the first to the second, y on the side of the third. Undefined when
+ * they do not span a plane.
+ */
 export function frameOf(a: Matrix, b: Matrix, c: Matrix, origin: Matrix): Matrix | undefined {
   const x = unit(minus(b.p, a.p));
   const z = x === undefined ? undefined : unit(cross(x, minus(c.p, a.p)));

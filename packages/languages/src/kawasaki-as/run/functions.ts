@@ -15,7 +15,9 @@ const turn = (axis: "x" | "y" | "z"): Entry => [
   ([angle], at) => ({ kind: "place", at: about(axis, asNumber(angle!, at)) }),
 ];
 
-/** Functions that need nothing of the controller, with the number of arguments that each takes. Angles are in degrees. */
+/**
+ * Functions that need nothing of the controller, with the number of arguments that each takes. Angles are in degrees.
+ */
 export const FUNCTIONS: Readonly<Record<string, Entry>> = {
   trans: [
     0,

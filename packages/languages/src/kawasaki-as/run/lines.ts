@@ -4,7 +4,9 @@ import { TextError } from "../../parser/index.ts";
 /** Lines that a program speaks of, by their names in the neutral program. */
 export type Lines = Record<string, SignalLine>;
 
-/** Outputs count from 1, inputs from 1001, and lines inside the controller, which a program writes and reads, from 2001. */
+/**
+ * Outputs count from 1, inputs from 1001, and lines inside the controller, which a program writes and reads, from 2001.
+ */
 const LAST = 960;
 const FIRST_INPUT = 1001;
 const LAST_INPUT = 1960;

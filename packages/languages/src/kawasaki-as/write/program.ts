@@ -82,7 +82,10 @@ export class ProgramWriter extends BlockStepWriter {
     this.out.add(".END");
   }
 
-  /** What the controller would keep from before, and tools, frames and lines under the names that they have in the program. */
+  /**
+   * What the controller would keep from before, and tools, frames and lines under the names that they have in the
+   * program.
+   */
   private declarations(): void {
     const { place, out } = this;
     const { program } = place;

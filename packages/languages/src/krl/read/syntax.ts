@@ -19,7 +19,10 @@ export type Expression = TextPlace &
     | { readonly kind: "unary"; readonly sign: string; readonly of: Expression }
     | { readonly kind: "binary"; readonly sign: string; readonly left: Expression; readonly right: Expression }
   );
-/** `NAME[i].FIELD`; further parts are members of a structure. An empty index (`P[]`) means the whole array and is left out. */
+/**
+ * `NAME[i].FIELD`; further parts are members of a structure. An empty index (`P[]`) means the whole array and is left
+ * out.
+ */
 export type Variable = TextPlace & {
   readonly kind: "variable";
   readonly parts: readonly { readonly name: string; readonly indices: readonly Expression[] }[];

@@ -1,15 +1,18 @@
 import { allBranches, type Pose, type Robot } from "@twincell/core";
 
 /**
- * What the controller of a robot shows: A_i = shown at the library's zero + sense · angle. Written from the machine data,
- * without a look at the writer's table, so that a fault in either is seen.
+ * What the controller of a robot shows: A_i = shown at the library's zero + sense · angle. Written from the machine
+ * data, without a look at the writer's table, so that a fault in either is seen.
  */
 interface Display {
   readonly atZero_deg: readonly number[];
   readonly senses: readonly (1 | -1)[];
 }
 
-/** The library turns KUKA's axes by the left hand where KUKA does, and counts from KUKA's zero: arm and forearm level in front. */
+/**
+ * The library turns KUKA's axes by the left hand where KUKA does, and counts from KUKA's zero: arm and forearm level in
+ * front.
+ */
 const LEVEL: Display = { atZero_deg: [0, 0, 0, 0, 0, 0], senses: [1, 1, 1, 1, 1, 1] };
 const DISPLAYS: Readonly<Record<string, Display>> = { kuka_kr6r900sixx: LEVEL, kuka_kr6_2: LEVEL };
 

@@ -27,7 +27,9 @@ const QUIET_ROUTINES = new Set(["IR_STOPM", "MSGQUIT"]);
 /** A line is looked at while what stands before it is not executed yet. Never leaves the machine. */
 class ReadTooEarly extends Error {}
 
-/** Executes a KRL module statement by statement. Deterministic: the same text and the same signals give the same steps. */
+/**
+ * Executes a KRL module statement by statement. Deterministic: the same text and the same signals give the same steps.
+ */
 export class Machine implements Memory {
   readonly lines: Lines;
   private readonly source: Source;
@@ -461,8 +463,8 @@ export class Machine implements Memory {
   }
 
   /**
-   * The search that a motion is while an interrupt is on whose routine brakes. RESUME leaves the routine of the motion, so
-   * what follows in it is only done when nothing was met: a HALT there is what "not found" leads to.
+   * The search that a motion is while an interrupt is on whose routine brakes. RESUME leaves the routine of the motion,
+   * so what follows in it is only done when nothing was met: a HALT there is what "not found" leads to.
    */
   private search(): Search | undefined {
     for (const { on, condition, routine } of this.interrupts.values()) {
@@ -514,7 +516,8 @@ export class Machine implements Memory {
     this.note(statement);
   }
 
-  // What comes out ------------------------------------------------------------------------------------------------------
+  // What comes out
+  // ------------------------------------------------------------------------------------------------------
 
   /** Hands out the motion that was waiting for what comes after it. */
   private settle(goesOn: boolean): void {

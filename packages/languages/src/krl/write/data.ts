@@ -20,7 +20,10 @@ export class DataList {
   private readonly signals = new Map<string, string>();
   private readonly declared: { readonly line: string; readonly step: string }[] = [];
 
-  /** The name under which a frame is kept; declared when it is asked for first. `key` tells frames apart that are called the same. */
+  /**
+   * The name under which a frame is kept; declared when it is asked for first. `key` tells frames apart that are called
+   * the same.
+   */
   frame(prefix: "TOOL_" | "BASE_" | "ROOT_", name: string, pose: () => Pose): string {
     const key = `${prefix}${name}`;
     const known = this.frames.get(key);

@@ -118,7 +118,10 @@ const RESERVED = new Set([
   "XHOME",
 ]);
 
-/** A name of KRL: letters, digits and `_`, no digit first, upper case, at most 24 characters, not in `taken`, which receives it. */
+/**
+ * A name of KRL: letters, digits and `_`, no digit first, upper case, at most 24 characters, not in `taken`, which
+ * receives it.
+ */
 export function krlName(name: string, taken: Set<string>, prefix = ""): string {
   const plain = asciiText(name)
     .toUpperCase()
@@ -135,7 +138,10 @@ export function krlName(name: string, taken: Set<string>, prefix = ""): string {
   }
 }
 
-/** What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are dropped. */
+/**
+ * What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are
+ * dropped.
+ */
 export const commentText = (name: string): string =>
   asciiText(name)
     .replace(/^[*;%\s]+/, "")

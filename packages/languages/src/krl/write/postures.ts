@@ -14,9 +14,9 @@ export type ConfigurationMap = ReadonlyMap<string, Posture>;
 export type Configurations = { readonly kind: "postures"; readonly of: ConfigurationMap } | Cannot;
 
 /**
- * Status and Turn of every taught point, by step id: of the joint angles that were taught, or of those that reach the pose
- * with least travel from the point before, in the order of execution. Stops at the first point that cannot be reached or
- * lies outside the limits.
+ * Status and Turn of every taught point, by step id: of the joint angles that were taught, or of those that reach the
+ * pose with least travel from the point before, in the order of execution. Stops at the first point that cannot be
+ * reached or lies outside the limits.
  */
 export function configurationsOf(place: WalkedPlace, convention: AxisConvention): Configurations {
   const found = new Map<string, Posture>();

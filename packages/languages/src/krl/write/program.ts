@@ -256,7 +256,8 @@ export class ModuleWriter {
     return "above" in when ? `${variable}>${singleText(when.above)}` : `${variable}<${singleText(when.below)}`;
   }
 
-  // Motion --------------------------------------------------------------------------------------------------------------
+  // Motion
+  // --------------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
     const add = (line: string): void => {

@@ -5,7 +5,9 @@ import { lengthText } from "./location.ts";
 /** Slowest speed of a path that is written [m/s]. */
 const SLOWEST_MPS = 1e-4;
 
-/** Axis speed in whole percent, as $VEL_AXIS holds it. A speed of the tool is only its share of the robot's greatest. */
+/**
+ * Axis speed in whole percent, as $VEL_AXIS holds it. A speed of the tool is only its share of the robot's greatest.
+ */
 export function percentOf(speed: Speed, maxTcpSpeed_mps: number): number {
   const ratio = "ratio" in speed ? speed.ratio : "mps" in speed ? speed.mps / maxTcpSpeed_mps : 1;
   return Math.min(100, Math.max(1, Math.round(ratio * 100)));

@@ -1,6 +1,9 @@
 import type { Branch } from "@twincell/core";
 
-/** Status: bit 0 wrist centre behind axis 1, bit 1 axis 3 bent upwards of the line from axis 2 to the wrist, bit 2 axis 5 negative. */
+/**
+ * Status: bit 0 wrist centre behind axis 1, bit 1 axis 3 bent upwards of the line from axis 2 to the wrist, bit 2 axis
+ * 5 negative.
+ */
 export function statusOf({ shoulder, elbow, wrist }: Branch): number {
   // An elbow is up or down as the arm stands when it faces the wrist; KUKA looks at axis 3 alone.
   const isBent = (elbow === "up") === (shoulder === "front");

@@ -13,7 +13,10 @@ const NUMBER = /[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][-+]?[0-9]+)?/y;
 const TEXT = /"((?:[^"]|"")*)"/y;
 const COMMENT = /\{([^}]*)\}/y;
 
-/** Walks over one line. Blanks, commas and semicolons only part what stands beside them; words compare without regard to case. */
+/**
+ * Walks over one line. Blanks, commas and semicolons only part what stands beside them; words compare without regard to
+ * case.
+ */
 export class Cursor {
   private readonly text: string;
   private readonly line: number;

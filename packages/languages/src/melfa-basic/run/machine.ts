@@ -133,7 +133,10 @@ export class MelfaMachine extends BasicMachine<Said> {
     return run(x, y);
   }
 
-  /** `*` goes on from the left position, `/` goes back by the right one, `+` and `-` add the numbers. The posture is the left one's. */
+  /**
+   * `*` goes on from the left position, `/` goes back by the right one, `+` and `-` add the numbers. The posture is the
+   * left one's.
+   */
   protected override joined(
     sign: string,
     left: Value,
@@ -296,7 +299,10 @@ export class MelfaMachine extends BasicMachine<Said> {
     };
   }
 
-  /** From the first of three positions, to which the hand goes straight if it is not there, through the second to the third. */
+  /**
+   * From the first of three positions, to which the hand goes straight if it is not there, through the second to the
+   * third.
+   */
   private arc(statement: Do): readonly Step[] {
     const [from, via, to] = statement.args.map(({ value }) => value);
     if (from === undefined || via === undefined || to === undefined)

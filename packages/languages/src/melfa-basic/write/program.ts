@@ -301,7 +301,10 @@ export class MelfaProgram extends BasicProgram {
     return variable;
   }
 
-  /** (posture, turns): 4 for a wrist in front of joint 1, 2 for a forearm that is folded forwards, 1 for a wrist that is not flipped. Every joint is within half a turn. */
+  /**
+   * (posture, turns): 4 for a wrist in front of joint 1, 2 for a forearm that is folded forwards, 1 for a wrist that is
+   * not flipped. Every joint is within half a turn.
+   */
   private flagOf(q: readonly number[] | undefined): string {
     const named = q === undefined ? undefined : branchOf(this.place.robot, q);
     if (named === undefined) return `(${RIGHT + ABOVE + NONFLIP},0)`;

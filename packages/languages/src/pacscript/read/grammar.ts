@@ -262,7 +262,10 @@ class PacReader extends BasicReader {
     );
   }
 
-  /** `Move L, @P goal, Speed = 50`. How a point is passed stands before the last goal, or before the distance of an approach. */
+  /**
+   * `Move L, @P goal, Speed = 50`. How a point is passed stands before the last goal, or before the distance of an
+   * approach.
+   */
   private motion(name: string, at: TextPlace): Statement {
     const { cursor } = this;
     const args: Argument[] = [];

@@ -248,7 +248,10 @@ export class PacProgram extends BasicModules {
     return this.inBase({ ...target, frame: work, pose: this.place.seenIn(work, target) });
   }
 
-  /** 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a wrist that is not flipped. Joints 4 and 6 are within half a turn. */
+  /**
+   * 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a wrist that is not flipped. Joints 4 and 6 are
+   * within half a turn.
+   */
   private figureOf(branch: Branch | undefined, configuration: readonly number[] | undefined): number {
     const named =
       branch === undefined || configuration === undefined ? undefined : branchOf(this.place.robot, configuration);

@@ -26,7 +26,10 @@ export interface RunContext {
 type Binary = Extract<Expression, { kind: "binary" }>;
 type Call = Extract<Expression, { kind: "call" }>;
 
-/** Executes a BASIC statement by statement. S holds what instructions have said: plain values, which are copied to be remembered. */
+/**
+ * Executes a BASIC statement by statement. S holds what instructions have said: plain values, which are copied to be
+ * remembered.
+ */
 export abstract class BasicMachine<S extends object> extends BlockMachine<Value> {
   readonly surroundings: NetworkEmulator;
   /** Variables whose place is a frame although it changes: the places of a pallet that is being read. */

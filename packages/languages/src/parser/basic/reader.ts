@@ -34,7 +34,10 @@ export interface BasicGrammar {
   readonly unsayable: Readonly<Record<string, string>>;
 }
 
-/** Reads blocks, decisions and loops of a BASIC; its routines and instructions are the language's own affair. Goes on after a fault, so that all of them are told at once. */
+/**
+ * Reads blocks, decisions and loops of a BASIC; its routines and instructions are the language's own affair. Goes on
+ * after a fault, so that all of them are told at once.
+ */
 export abstract class BasicReader extends RecoveringReader {
   protected readonly grammar: BasicGrammar;
   protected readonly routines = new Map<string, Routine>();
@@ -377,7 +380,9 @@ export abstract class BasicReader extends RecoveringReader {
 const isNumber = (expression: Expression): expression is Extract<Expression, { kind: "number" }> =>
   expression.kind === "number";
 
-/** `a, b)` behind an opening bracket, for languages whose arguments have no names; one may be left out between commas. */
+/**
+ * `a, b)` behind an opening bracket, for languages whose arguments have no names; one may be left out between commas.
+ */
 export function readPlainArguments(cursor: TokenCursor, depth: number, rules: ExpressionRules): readonly Argument[] {
   const args: Argument[] = [];
   if (cursor.accept(")")) return args;

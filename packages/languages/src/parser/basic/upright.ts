@@ -3,9 +3,9 @@ import { NOWHERE, asPose, back, ofPose, on, type Rigid } from "./rigid.ts";
 import type { Posture } from "./values.ts";
 
 /**
- * What a controller knows of an upright arm with six joints: how far axis 2 is in front of axis 1, the lengths of the upper arm and of
- * the forearm, how far the wrist is in front of the forearm's line; how its joints lean the upper arm forwards from upright and fold
- * the forearm forwards from the upper arm [°]; and the sign of joint 5.
+ * What a controller knows of an upright arm with six joints: how far axis 2 is in front of axis 1, the lengths of the
+ * upper arm and of the forearm, how far the wrist is in front of the forearm's line; how its joints lean the upper arm
+ * forwards from upright and fold the forearm forwards from the upper arm [°]; and the sign of joint 5.
  */
 export interface Upright {
   readonly ahead_mm: number;
@@ -57,7 +57,10 @@ export class UprightArm {
     this.flange = on(place, back(this.tool));
   }
 
-  /** The posture at a place; what is left open is as near as possible to where the arm was. Undefined when there is none. */
+  /**
+   * The posture at a place; what is left open is as near as possible to where the arm was. Undefined when there is
+   * none.
+   */
   branchAt(place: Rigid, configuration: Posture): Branch | undefined {
     const reach = solveAll(this.robot, asPose<"base", "flange">(on(place, back(this.tool))), { near: this.near });
     if (reach.kind !== "reached") return undefined;

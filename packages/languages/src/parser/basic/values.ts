@@ -13,7 +13,10 @@ export interface Posture {
   /** Axis 5 is turned in its positive sense, as the controller counts. */
   readonly wrist?: boolean;
 }
-/** A place, the frame that its numbers count in ("" for the base of the robot), and where it was made of a variable and a place in it. */
+/**
+ * A place, the frame that its numbers count in ("" for the base of the robot), and where it was made of a variable and
+ * a place in it.
+ */
 export interface PlaceValue {
   readonly kind: "place";
   readonly at: Rigid;

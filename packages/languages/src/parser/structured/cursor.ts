@@ -2,7 +2,10 @@ import type { TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
 import { Scanner, type Comment, type Lexicon, type TokenKind } from "./scanner.ts";
 
-/** Walks over the tokens of a text. `fold` gives words the form in which the language compares them. Going on allocates nothing. */
+/**
+ * Walks over the tokens of a text. `fold` gives words the form in which the language compares them. Going on allocates
+ * nothing.
+ */
 export class TokenCursor {
   /** The next token: its sort, as it is written, and as the language compares it ("" at the end and for a text). */
   kind: TokenKind = "line-end";

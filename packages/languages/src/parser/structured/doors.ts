@@ -51,7 +51,10 @@ export interface BlockLanguage<S, M> {
   readonly speaks: (robot: Robot) => boolean;
   readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
-  /** What of the text is kept and shown but not executed. Throws a TextError where that could change how the robot moves. */
+  /**
+   * What of the text is kept and shown but not executed. Throws a TextError where that could change how the robot
+   * moves.
+   */
   readonly notExecuted?: (source: S) => readonly TextFault[];
 }
 /** Both ways to take a text of a language of blocks: as steps, which are still to be compared with it, and executed. */
@@ -62,9 +65,9 @@ interface NotUnderstood {
 }
 
 /**
- * The two doors through which text of a language of blocks comes in. Read as a program, loops that do the same each time stay
- * loops, nests of loops over a pattern of places become pallets, decisions by one line and calls stay what they are, and
- * everything else comes out as what it does.
+ * The two doors through which text of a language of blocks comes in. Read as a program, loops that do the same each
+ * time stay loops, nests of loops over a pattern of places become pallets, decisions by one line and calls stay what
+ * they are, and everything else comes out as what it does.
  */
 export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(name: string): string }>({
   name,

@@ -49,7 +49,9 @@ export abstract class RecoveringReader {
     return false;
   }
 
-  /** Reads what stands inside a block that was opened at `at`. Every way out of `read` by a fault leads through `guard`. */
+  /**
+   * Reads what stands inside a block that was opened at `at`. Every way out of `read` by a fault leads through `guard`.
+   */
   protected nested<T>(at: TextPlace, read: () => T): T {
     if (++this.depth > DEPTH)
       throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);

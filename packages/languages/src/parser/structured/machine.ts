@@ -21,8 +21,8 @@ export interface Scope<V> {
 }
 
 /**
- * Executes blocks, loops and calls of a language whose values are V. What an expression is worth and what an instruction
- * does is the language's own affair. Deterministic: the same text gives the same steps.
+ * Executes blocks, loops and calls of a language whose values are V. What an expression is worth and what an
+ * instruction does is the language's own affair. Deterministic: the same text gives the same steps.
  */
 export abstract class BlockMachine<V> {
   protected readonly scopes: Scope<V>[] = [];

@@ -34,7 +34,10 @@ interface Counter {
   readonly body: Block;
 }
 
-/** Writes a program down as steps that keep its loops, decisions and calls. Loops that do something else each time are written out. */
+/**
+ * Writes a program down as steps that keep its loops, decisions and calls. Loops that do something else each time are
+ * written out.
+ */
 export class Outline<V> {
   readonly groups: Record<string, Group> = {};
   readonly routines: Record<string, readonly Step[]> = {};
@@ -255,7 +258,10 @@ export class Outline<V> {
     return "next";
   }
 
-  /** Whether every round does the same. Where a variable tells the rounds apart all of them are looked at, as long as they are few. */
+  /**
+   * Whether every round does the same. Where a variable tells the rounds apart all of them are looked at, as long as
+   * they are few.
+   */
   private isSame({ name, from, step, times, body }: Counter): boolean {
     const looks = Math.min(times, isSteady(body, name, routine => this.machine.routine(routine)) ? 2 : MOST_LOOKS + 1);
     if (looks > MOST_LOOKS) return false;

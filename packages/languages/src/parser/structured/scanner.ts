@@ -39,7 +39,9 @@ const SORTS = Uint8Array.from({ length: 128 }, (_, code) => {
 const isDigitCode = (code: number): boolean => code < 128 && SORTS[code] === DIGIT;
 const isWordCode = (code: number): boolean => code < 128 && (SORTS[code] === LETTER || SORTS[code] === DIGIT);
 
-/** The tokens of a text one after the other: `next` puts the token into these fields. Lines may end in CR LF, LF or CR. */
+/**
+ * The tokens of a text one after the other: `next` puts the token into these fields. Lines may end in CR LF, LF or CR.
+ */
 export class Scanner {
   kind: TokenKind = "line-end";
   raw = "";

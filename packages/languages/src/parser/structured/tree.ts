@@ -1,6 +1,8 @@
 import type { TextPlace } from "@twincell/core";
 
-/** An argument of a call: by place, by name (`r=0.01`, `\WObj:=box`), or a switch (`\On`) that has a name and no value. */
+/**
+ * An argument of a call: by place, by name (`r=0.01`, `\WObj:=box`), or a switch (`\On`) that has a name and no value.
+ */
 export interface Argument extends TextPlace {
   readonly name?: string;
   readonly value?: Expression;

@@ -2,7 +2,10 @@ import { branchOf, flangePose, type Branch, type Pose, type Robot } from "@twinc
 import { octant, solved, type Confdata } from "./configuration.ts";
 import { NOTHING, fromPose, times, toPose, type Frame } from "./frame.ts";
 
-/** Where the arm is sent. The controller counts from the base of the robot; its joints are those of the library, in degrees. */
+/**
+ * Where the arm is sent. The controller counts from the base of the robot; its joints are those of the library, in
+ * degrees.
+ */
 export class ControllerArm {
   readonly robot: Robot;
   private readonly worldFromBase: Frame;
@@ -39,7 +42,10 @@ export class ControllerArm {
     this.known = undefined;
   }
 
-  /** The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the branch, where it has a name. */
+  /**
+   * The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the
+   * branch, where it has a name.
+   */
   atFlange(flange: Frame, conf: Confdata | undefined): Branch | undefined {
     const near = this.joints_deg?.map(angle => (angle / 180) * Math.PI);
     const q = solved(this.robot, toPose(flange), near, conf);

@@ -12,8 +12,8 @@ const crossed = (a: readonly number[], b: readonly number[]): number[] => [
 ];
 
 /**
- * Where the arm stands, read off its links: bit 2 the wrist centre is behind axis 1, bit 1 it is behind the lower arm as the
- * arm faces, bit 0 axis 5 is negative.
+ * Where the arm stands, read off its links: bit 2 the wrist centre is behind axis 1, bit 1 it is behind the lower arm
+ * as the arm faces, bit 0 axis 5 is negative.
  */
 export function octant(robot: Robot, q_rad: readonly number[]): number {
   const links = Array.from({ length: 7 }, () => identity<"base", "link">());
@@ -42,8 +42,8 @@ function outside(angle_rad: number, quarter: number): number {
 const BORDER_RAD = 1e-4;
 
 /**
- * The joint angles in that configuration, those of least travel among several. Of angles in no such configuration the ones
- * that are least beside it: the controller asks the same of its operator.
+ * The joint angles in that configuration, those of least travel among several. Of angles in no such configuration the
+ * ones that are least beside it: the controller asks the same of its operator.
  */
 export function solved(
   robot: Robot,

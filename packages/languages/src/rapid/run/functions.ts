@@ -94,7 +94,8 @@ export const FUNCTIONS: Readonly<Record<string, Entry>> = {
         [...wxyz],
       ]),
   ],
-  // Along and about the axes of the tool: the shift first, then turns about x, y and z, each about the axes as turned by then.
+  // Along and about the axes of the tool: the shift first, then turns about x, y and z, each about the axes as turned
+  // by then.
   reltool: [
     4,
     ([target, dx, dy, dz], options, at) =>

@@ -11,7 +11,9 @@ export const KIND_OF_FUNCTION: Readonly<Record<string, SignalLine["kind"]>> = {
   aoutput: "analogue-out",
 };
 
-/** The lines of the controller. They are names of its configuration, so a program only shows by its use what they are. */
+/**
+ * The lines of the controller. They are names of its configuration, so a program only shows by its use what they are.
+ */
 export class Lines {
   private readonly table: Record<string, SignalLine>;
   private readonly signals: Signals | undefined;

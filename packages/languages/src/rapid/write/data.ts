@@ -10,8 +10,8 @@ export const part = (value: number): string => fixed(value, DECIMALS.part);
 export const posText = (position_m: ArrayLike<number>): string => `[${Array.from(position_m, mm).join(",")}]`;
 
 /**
- * q1 … q4 = w, x, y, z with the first that is not 0 positive. Cut digits shorten a quaternion and the controller makes it
- * whole again: the digits written are those that this leaves as they are.
+ * q1 … q4 = w, x, y, z with the first that is not 0 positive. Cut digits shorten a quaternion and the controller makes
+ * it whole again: the digits written are those that this leaves as they are.
  */
 export function orientText([x, y, z, w]: Pose["quaternion"]): string {
   const first = [w, x, y, z].find(value => Math.abs(value) > 1e-7) ?? 1;
@@ -50,7 +50,10 @@ export const jointsText = (q_rad: ArrayLike<number>): string => `[[${Array.from(
 export const toolText = (tool: Pose): string => `[TRUE,${poseText(tool)},[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]`;
 export const objectText = (frame: Pose): string => `[FALSE,TRUE,"",${poseText(frame)},[[0,0,0],[1,0,0,0]]]`;
 export const speedText = (v_mmps: string): string => `[${v_mmps},500,5000,1000]`;
-/** A zone as the predefined ones are made: half as much again for the orientation, a degree for every ten millimetres of that. */
+/**
+ * A zone as the predefined ones are made: half as much again for the orientation, a degree for every ten millimetres of
+ * that.
+ */
 export function zoneText(zone_mm: string): string {
   const orient = fixed(1.5 * Number(zone_mm), 4);
   const turn = fixed(0.15 * Number(zone_mm), 4);

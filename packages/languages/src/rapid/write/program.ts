@@ -247,7 +247,10 @@ export class ProgramWriter extends BlockStepWriter {
     this.begin();
   }
 
-  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  /**
+   * Where a place is: so far along its line, so many lines and layers away, and every second line half a step further
+   * where they are packed.
+   */
   private placeText(
     { pallet, along_m, away_m, up_m, isShifted }: Pattern,
     layer: string,
@@ -422,7 +425,9 @@ export class ProgramWriter extends BlockStepWriter {
     add(`MoveC ${this.via(step, frame)},${goal},${at}${object};`);
   }
 
-  /** Off a joint move only the tool's pose is written: of taught angles the posture is kept, not the turns of an axis. */
+  /**
+   * Off a joint move only the tool's pose is written: of taught angles the posture is kept, not the turns of an axis.
+   */
   private reached(target: Target): Target {
     const branch = "q" in target ? branchOf(this.robot, target.q) : undefined;
     if (!("q" in target) || branch === undefined) return target;

@@ -1,4 +1,7 @@
-/** Words that a name must not be: those of the language, and data, functions and instructions that every controller has. Lower case. */
+/**
+ * Words that a name must not be: those of the language, and data, functions and instructions that every controller has.
+ * Lower case.
+ */
 export const WORDS: ReadonlySet<string> = new Set([
   "alias",
   "and",

@@ -20,7 +20,10 @@ import {
 } from "../../parser/basic/index.ts";
 import type { Do, Expression } from "../../parser/structured/index.ts";
 
-/** Angles of the controller are those of the maker's zeros: the forearm level, joint 2 leaning back, joint 3 lifting the forearm. */
+/**
+ * Angles of the controller are those of the maker's zeros: the forearm level, joint 2 leaning back, joint 3 lifting the
+ * forearm.
+ */
 const ARMS: Readonly<Record<string, Upright>> = {
   epson_c4_a601s: {
     ahead_mm: 100,

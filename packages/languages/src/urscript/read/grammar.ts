@@ -98,7 +98,10 @@ const RULES: ExpressionRules = {
   args: readArguments,
 };
 
-/** A text that was read: what a person called it, routines by name, and what stands in the program itself or, for a bare script, outside all of them. */
+/**
+ * A text that was read: what a person called it, routines by name, and what stands in the program itself or, for a bare
+ * script, outside all of them.
+ */
 export interface Source {
   readonly title: string;
   readonly routines: ReadonlyMap<string, Routine>;

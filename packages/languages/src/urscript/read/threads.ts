@@ -17,8 +17,8 @@ interface Use {
 }
 
 /**
- * The threads of a text: kept, named, and not executed. One that moves the robot, changes how it moves, or gives a value to a
- * variable that the program reads cannot be left out.
+ * The threads of a text: kept, named, and not executed. One that moves the robot, changes how it moves, or gives a
+ * value to a variable that the program reads cannot be left out.
  *
  * @throws {TextError} at what cannot be left out.
  */

@@ -18,7 +18,10 @@ export class ControllerArm {
   private readonly baseFromController = toPose<"base", "controller">(BASE_FROM_CONTROLLER);
   private readonly scratch = solverScratch();
   tcp: Matrix = matrixOf([0, 0, 0, 0, 0, 0]);
-  /** The last joint angles that are known, undefined where they cannot be worked out, and the poses of the flange since then. */
+  /**
+   * The last joint angles that are known, undefined where they cannot be worked out, and the poses of the flange since
+   * then.
+   */
   private settled: readonly number[] | undefined;
   private since: Matrix[] = [];
 
@@ -42,7 +45,10 @@ export class ControllerArm {
     return toPose(times(this.worldFromController, pose));
   }
 
-  /** The posture that each pose was reached in, one after the other, is worked out when somebody asks. Undefined where it cannot be. */
+  /**
+   * The posture that each pose was reached in, one after the other, is worked out when somebody asks. Undefined where
+   * it cannot be.
+   */
   get joints(): readonly number[] | undefined {
     for (const flange of this.since)
       this.settled = this.settled === undefined ? undefined : this.solvedFor(flange, this.settled);

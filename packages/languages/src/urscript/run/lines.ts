@@ -43,7 +43,10 @@ const SHORT: Readonly<Record<Kind, string>> = {
   "analogue-out": "AO",
 };
 
-/** The line that a number means at that door, under the name of the variable that holds the number, else DO3 and its like. */
+/**
+ * The line that a number means at that door, under the name of the variable that holds the number, else DO3 and its
+ * like.
+ */
 export function lineAt(route: Route, number: number, named: string | undefined, lines: Lines, at: TextPlace): string {
   if (!Number.isInteger(number) || number < 0 || number >= route.count)
     throw new TextError(at, `a line from 0 to ${route.count - 1}`, `There is no line ${number} here.`);

@@ -202,7 +202,10 @@ export class ProgramWriter extends BlockStepWriter {
     this.begin();
   }
 
-  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  /**
+   * Where a place is: so far along its line, so many lines and layers away, and every second line half a step further
+   * where they are packed.
+   */
   private placeText(
     { pallet, along_m, away_m, up_m, isShifted }: Pattern,
     controllerFromWorld: Pose<"controller", "world">,
@@ -335,7 +338,10 @@ export class ProgramWriter extends BlockStepWriter {
     return `pose_trans(${this.names.of("frame", target.frame)}, ${poseText(target.pose)})`;
   }
 
-  /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
+  /**
+   * A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its
+   * angles.
+   */
   private jointGoal(target: Target, configuration: readonly number[] | undefined): string {
     if (
       "q" in target ||

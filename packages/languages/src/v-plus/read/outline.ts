@@ -150,7 +150,10 @@ export function outlineOf(lines: readonly string[]): Structure | undefined {
     : { main, programs, numbers, flat: `${flat.join("\n")}\n.END\n`, plain };
 }
 
-/** `;== title` begins a group, `;- text` is a comment of its own, `;* text` is for whoever reads the file, `;name` names the next step. */
+/**
+ * `;== title` begins a group, `;- text` is a comment of its own, `;* text` is for whoever reads the file, `;name` names
+ * the next step.
+ */
 function remark(text: string, line: number): Node {
   if (text.startsWith("==")) return { kind: "group", line, text: text.replace(/^=+\s*/, "") };
   if (text.startsWith("-")) return { kind: "comment", line, text: text.slice(1).trim() };

@@ -26,9 +26,9 @@ type Structured =
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /**
- * The program of a text with its loops, calls, decisions and pallets. The lines between them are executed once, from top
- * to bottom, which says what each of them does; then the whole is compared with the text being executed. Undefined when
- * the structure is no neutral program's, or does not mean the same: then only executing it says what it does.
+ * The program of a text with its loops, calls, decisions and pallets. The lines between them are executed once, from
+ * top to bottom, which says what each of them does; then the whole is compared with the text being executed. Undefined
+ * when the structure is no neutral program's, or does not mean the same: then only executing it says what it does.
  */
 export function structuredProgram(
   text: string,
@@ -166,7 +166,9 @@ class Builder {
     return { id: `s${++this.count}`, ...(name === "" ? {} : { name }), ...(group === undefined ? {} : { group }) };
   }
 
-  /** A motion to `place:…` counts from the place; the flat text had the place in the origin of the controller's world. */
+  /**
+   * A motion to `place:…` counts from the place; the flat text had the place in the origin of the controller's world.
+   */
   private atPlace(step: Step, line: number, places: readonly string[]): Step {
     const place = /^\s*MOVES?\s+(\w+):/i.exec(this.lines[line - 1] ?? "")?.[1]?.toLowerCase();
     if (step.type !== "move" || place === undefined || !places.includes(place) || !("pose" in step.target)) return step;

@@ -55,7 +55,10 @@ export type Statement = TextPlace &
     | { readonly kind: "call"; readonly program: string; readonly args: readonly Expression[] }
     | { readonly kind: "return" }
     | { readonly kind: "stop" }
-    /** Statements that ask for accuracy or say something to the operator: read, and without effect on where the robot goes. */
+    /**
+     * Statements that ask for accuracy or say something to the operator: read, and without effect on where the robot
+     * goes.
+     */
     | { readonly kind: "nothing" }
   );
 

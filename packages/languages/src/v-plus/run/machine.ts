@@ -381,8 +381,8 @@ const isOneSignal = (
 const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
 
 /**
- * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this one
- * begins to slow down, v² / 2a before its end, where a takes the arm from full speed to rest in its ramp.
+ * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this
+ * one begins to slow down, v² / 2a before its end, where a takes the arm from full speed to rest in its ramp.
  */
 function continuousPath(robot: Robot, { speed }: MoveStep): number {
   const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));

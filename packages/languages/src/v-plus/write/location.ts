@@ -8,7 +8,10 @@ export function transText({ position, quaternion }: Pose): string {
   return `TRANS(${numbers.map(tidy).join(",")})`;
 }
 
-/** #PPOINT(j1,…,jn) in degrees as V+ counts them: no blanks, ASCII minus, seven significant digits, no exponent (rows N-54 … N-56). */
+/**
+ * #PPOINT(j1,…,jn) in degrees as V+ counts them: no blanks, ASCII minus, seven significant digits, no exponent (rows
+ * N-54 … N-56).
+ */
 export function ppointText(q_rad: ArrayLike<number>, { signs, offsets_deg }: JointConvention): string {
   return `#PPOINT(${Array.from(q_rad, (q, i) => tidy(signs[i]! * degrees(q) + offsets_deg[i]!)).join(",")})`;
 }

@@ -103,7 +103,9 @@ const RESERVED = new Set([
   "xor",
 ]);
 
-/** A name of V+: a letter first, then letters, digits and `_`, lower case, at most 15 characters, and not in `taken`. */
+/**
+ * A name of V+: a letter first, then letters, digits and `_`, lower case, at most 15 characters, and not in `taken`.
+ */
 export function vPlusName(name: string, taken: ReadonlySet<string> = new Set()): string {
   const plain = asciiText(name)
     .toLowerCase()
@@ -118,5 +120,8 @@ export function vPlusName(name: string, taken: ReadonlySet<string> = new Set()):
   }
 }
 
-/** What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are dropped. */
+/**
+ * What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are
+ * dropped.
+ */
 export const commentText = (name: string): string => asciiText(name).replace(/^[*=;\-\s]+/, "");

@@ -12,7 +12,10 @@ import { singleText } from "../../parser/index.ts";
 import { transText } from "./location.ts";
 import type { Place } from "./postures.ts";
 
-/** Variables of a pallet: the place being visited, the first place, and the counters of layer, outer and inner loop, and of the way along a row. */
+/**
+ * Variables of a pallet: the place being visited, the first place, and the counters of layer, outer and inner loop, and
+ * of the way along a row.
+ */
 export interface PalletNames {
   readonly place: string;
   readonly first: string;
@@ -23,8 +26,8 @@ export interface PalletNames {
 }
 
 /**
- * A pallet as loops: every line before the steps that are done at a place. The first place and the pitches are written in
- * the world of the controller; SHIFT moves along its axes.
+ * A pallet as loops: every line before the steps that are done at a place. The first place and the pitches are written
+ * in the world of the controller; SHIFT moves along its axes.
  */
 export function palletLines(pallet: Pallet, names: PalletNames, place: Place): string[] {
   const { layer, outer, inner, along } = names;

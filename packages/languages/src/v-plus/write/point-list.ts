@@ -13,7 +13,9 @@ export const MAX_POINTS = Math.floor(32768 / STRIDE);
 export const pointLine = (at: number, q_rad: ArrayLike<number>, convention: JointConvention): string =>
   `DO DECOMPOSE J_V[${at * STRIDE}]=${ppointText(q_rad, convention)}`;
 
-/** The point list: one line per taught point, to be sent through a terminal. It fills an array and moves nothing (E-08). */
+/**
+ * The point list: one line per taught point, to be sent through a terminal. It fills an array and moves nothing (E-08).
+ */
 export function pointList(
   moves: readonly MoveStep[],
   q_rad: ConfigurationMap,

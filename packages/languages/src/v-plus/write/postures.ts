@@ -40,10 +40,10 @@ export function worldFromTarget({ frames }: Place, { pose, frame }: PoseTarget):
 }
 
 /**
- * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with least
- * travel from the point before. A point that is visited at many places has the angles of the first; the text says one
- * posture for all of them, so each must be reached in it. Stops at the first point that cannot be reached or lies outside
- * the limits.
+ * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with
+ * least travel from the point before. A point that is visited at many places has the angles of the first; the text says
+ * one posture for all of them, so each must be reached in it. Stops at the first point that cannot be reached or lies
+ * outside the limits.
  */
 export function configurationsOf(program: Program, place: Place): Configurations {
   const q_rad = new Map<string, ArrayLike<number>>();

@@ -8,7 +8,10 @@ export interface Config {
   readonly wrist: string;
 }
 
-/** Where the controllers of these robots count from: the height of axis 2. Their joints are degrees from upright, as here. */
+/**
+ * Where the controllers of these robots count from: the height of axis 2. Their joints are degrees from upright, as
+ * here.
+ */
 const WORLDS: Readonly<Record<string, Trsf>> = { staubli_rx160: { mm: [0, 0, 550], wxyz: [1, 0, 0, 0] } };
 export const hasWorld = (robot: Robot): boolean => Object.hasOwn(WORLDS, robot.id);
 

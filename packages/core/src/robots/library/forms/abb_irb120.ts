@@ -1,6 +1,9 @@
 import type { FormLoft } from "../../shapes/form.ts";
 
-/** Shapes of the links of abb_irb120 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
+/**
+ * Shapes of the links of abb_irb120 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published
+ * meshes.
+ */
 // biome-ignore format: table of numbers
 export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
