@@ -2,7 +2,8 @@ import { degrees, radians, type Robot } from "@twincell/core";
 
 export const JOINTS = 6;
 /**
- * How a controller shows the joints:  J_i = degrees(q_i), but J3 = degrees(q_3 − coupling · q_2), the forearm against the horizon.
+ * How a controller shows the joints:
+ *   J_i = degrees(q_i), but J3 = degrees(q_3 − coupling · q_2), the forearm against the horizon.
  */
 export interface FanucJoints {
   readonly coupling: number;

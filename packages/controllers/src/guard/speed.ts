@@ -46,7 +46,8 @@ export function jointMoveSpeed(
 }
 
 /**
- * No motion within the joint speeds moves the TCP faster than this [m/s]:  Σ_i q̇max_i · (length of the arm beyond joint i).
+ * No motion within the joint speeds moves the TCP faster than this [m/s]:
+ *   Σ_i q̇max_i · (length of the arm beyond joint i).
  */
 export function speedBound(robot: Robot, flangeFromTcp: Pose<"flange", "tcp">): number {
   let beyond_m = norm(robot.arm.lastJointFromFlange.position) + norm(flangeFromTcp.position);

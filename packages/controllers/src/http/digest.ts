@@ -50,7 +50,8 @@ export function readChallenge(value: string): Challenge | null {
 }
 
 /**
- * The answer to a challenge, of RFC 2617:  MD5(MD5(user:realm:password) : nonce [: count : own nonce : auth] : MD5(method:target)).
+ * The answer to a challenge, of RFC 2617:
+ *   MD5(MD5(user:realm:password) : nonce [: count : own nonce : auth] : MD5(method:target)).
  * @param count  eight hexadecimal digits, or "" where requests are not counted.
  */
 export const digestOf = (

@@ -2,7 +2,9 @@ import { degrees, flangePose, fromKukaAbc, pose, radians, toKukaAbc, type Pose, 
 import { krlStruct, partsIn, REAL_DIGITS } from "./codec-values.ts";
 
 /**
- * How a controller counts the axes:  A_i = sign_i · degrees(q_i) + offset_i. Data of the controller: handed in for arms that are described otherwise.
+ * How a controller counts the axes:
+ *   A_i = sign_i · degrees(q_i) + offset_i.
+ * Data of the controller: handed in for arms that are described otherwise.
  */
 export interface KukaAxes {
   readonly signs: readonly number[];

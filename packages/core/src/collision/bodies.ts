@@ -125,7 +125,8 @@ export function farApart(a: Float64Array, b: Float64Array, gap_m: number): boole
 }
 
 /**
- * Bounds on the distance from joint axes, base first:  ρ_k = |p⊥_{k+1}| + R_{k+1},  R_m = |p_{m+1}| + R_{m+1} + slide_m,
+ * Bounds on the distance from joint axes, base first:
+ *   ρ_k = |p⊥_{k+1}| + R_{k+1},  R_m = |p_{m+1}| + R_{m+1} + slide_m,
  * and 1 for a joint that slides, which moves every point by what it moves itself; where p_{m+1} is joint m + 1 seen
  * from joint m, p⊥ its part across the axis, and R of the carrier the body's own radius.
  */

@@ -15,7 +15,8 @@ export interface Payload {
 }
 
 /**
- * Two loads as one: masses add, centres average by mass, inertias move to the common centre,  I = Σ I_i + m_i (d·d 1 − d dᵀ).
+ * Two loads as one: masses add, centres average by mass, inertias move to the common centre,
+ *   I = Σ I_i + m_i (d·d 1 − d dᵀ).
  */
 export function carriedTogether(a: Payload, b: Payload): Payload {
   const mass_kg = a.mass_kg + b.mass_kg;

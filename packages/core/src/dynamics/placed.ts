@@ -119,7 +119,8 @@ export function placeBodies(
     const c0 = r20 * xx + r21 * xy + r22 * xz;
     const c1 = r20 * xy + r21 * yy + r22 * yz;
     const c2 = r20 * xz + r21 * yz + r22 * zz_;
-    // Moving the reference by p:  I_o += 2 (j·p) 1 − (j pᵀ + p jᵀ) + m (p·p 1 − p pᵀ),  with j the first moment about the link's origin.
+    // Moving the reference by p:
+    //   I_o += 2 (j·p) 1 − (j pᵀ + p jᵀ) + m (p·p 1 − p pᵀ),  with j the first moment about the link's origin.
     const jp = 2 * (jx * px + jy * py + jz * pz);
     const pp = m * (px * px + py * py + pz * pz);
     placed[b] = m;

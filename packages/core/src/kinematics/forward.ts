@@ -8,7 +8,8 @@ export { armScratch, type ArmScratch } from "./chain.ts";
 /**
  * Pose of the flange in the robot base.
  *
- *   baseFromFlange = Π_i ( parentFromJoint_i · Rot(axis_i, q_i) ) · lastJointFromFlange,   Trans(axis_i q_i) where joint i slides
+ *   baseFromFlange = Π_i ( parentFromJoint_i · Rot(axis_i, q_i) ) · lastJointFromFlange,
+ *   Trans(axis_i q_i) where joint i slides
  *
  * @param arm      n joints, base first. Read only.
  * @param q        n joint values [rad; m of a slide]. Range is not checked here: see the joints' limits.

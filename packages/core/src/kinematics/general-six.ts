@@ -60,7 +60,8 @@ export function wantWrist(
 const SINGULAR_RADIUS_M = 4e-10;
 
 /**
- * The arm's posture for one θ6, and how far it misses:  condition = axis4 · axis5 (both as turned) − axis4 · axis5 (as built).
+ * The arm's posture for one θ6, and how far it misses:
+ *   condition = axis4 · axis5 (both as turned) − axis4 · axis5 (as built).
  *
  *   centre = p − e R (cos θ6, −sin θ6, 0)                        where axes 4 and 5 would meet
  *   θ1, θ2, θ3 as in an ortho-parallel arm with its wrist there

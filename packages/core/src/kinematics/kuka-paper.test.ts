@@ -105,7 +105,8 @@ interface Corrections {
 const ALL: Corrections = { phi: true, root: true, cross: true };
 
 /**
- * Eq 10: θ3 = −atan2(d4, a4) + atan2(±√(4 a3² (a4² + d4²) − B²), B),  B = (C1 Pxw + S1 Pyw − a2)² + (d1 + d2 − Pzw)² − a3² − a4² − d4².
+ * Eq 10: θ3 = −atan2(d4, a4) + atan2(±√(4 a3² (a4² + d4²) − B²), B),
+ *   B = (C1 Pxw + S1 Pyw − a2)² + (d1 + d2 − Pzw)² − a3² − a4² − d4².
  */
 function theta3(wrist: Vector3, theta1: number, sign: 1 | -1, { phi, root, cross }: Corrections): number {
   const ahead = Math.cos(theta1) * wrist[0] + Math.sin(theta1) * wrist[1];

@@ -11,7 +11,9 @@ export interface Span {
 }
 
 /**
- * Shoulder to wrist of a wanted pose: what has to lie between two lengths for the arm to reach it. For an ortho-parallel arm, in the plane that faces it:  |c2 − k| ≤ √(x² + z²) ≤ c2 + k,  k = √(a2² + c3²).
+ * Shoulder to wrist of a wanted pose: what has to lie between two lengths for the arm to reach it. For an
+ * ortho-parallel arm, in the plane that faces it:
+ *   |c2 − k| ≤ √(x² + z²) ≤ c2 + k,  k = √(a2² + c3²).
  * For a shoulder with an offset a1 the better of front and back counts. An arm set aside by b cannot come nearer to
  * axis 1 than b.
  */

@@ -96,7 +96,8 @@ export class HandGuard {
   }
 
   /**
-   * Takes out of the step what leads into each surface it meets:  dq ← dq − (∇d · dq / |∇d|²) ∇d  where ∇d · dq < 0, with ∇d the
+   * Takes out of the step what leads into each surface it meets:
+   *   dq ← dq − (∇d · dq / |∇d|²) ∇d  where ∇d · dq < 0, with ∇d the
    * slope of the pair's distance over the joints. Returns whether something is left that is proven clear.
    */
   #slide(rules: PathValidator, from: ArrayLike<number>, wanted: Float64Array): boolean {

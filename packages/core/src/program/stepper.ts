@@ -255,7 +255,9 @@ export class Stepper {
   }
 
   /**
-   * The rate after dt on its way to `wanted`:  |q̈ λ² + q̇ λ̇| ≤ a and |q̇ λ̈| ≤ j for every joint. λ̇ = 0 is always allowed,
+   * The rate after dt on its way to `wanted`:
+   *   |q̈ λ² + q̇ λ̇| ≤ a and |q̇ λ̈| ≤ j for every joint.
+   * λ̇ = 0 is always allowed,
    * because the plan itself keeps the limits; where both rules cannot be kept, the acceleration is.
    */
   private nextRate(segment: Motion, wanted: number, dt_s: number): number {

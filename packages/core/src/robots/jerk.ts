@@ -30,7 +30,8 @@ export const brakingTime_s = (robot: Robot): number =>
   );
 
 /**
- * What the tool travels at most from the word to stop to standstill [m]:  v t_reaction + v t_braking / 2, all joints slowing down evenly.
+ * What the tool travels at most from the word to stop to standstill [m]:
+ *   v t_reaction + v t_braking / 2, all joints slowing down evenly.
  *
  * @param speed_mps   speed of the tool when the word comes.
  * @param reaction_s  from the word to the first slowing down.

@@ -116,7 +116,8 @@ export const fromPaperXyz = (
 ): Quaternion => fromKukaAbc(az_deg, ay_deg, ax_deg, out);
 
 /**
- * Unity's inspector: turns about z, then x, then y, all of the world [deg], left-handed.  R_unity = Ry(y) · Rx(x) · Rz(z) (row L-23).
+ * Unity's inspector: turns about z, then x, then y, all of the world [deg], left-handed.
+ *   R_unity = Ry(y) · Rx(x) · Rz(z) (row L-23).
  */
 export const fromUnityAngles = (
   x_deg: number,
@@ -126,7 +127,8 @@ export const fromUnityAngles = (
 ): Quaternion => fromEulerAngles("yxz", radians(y_deg), radians(x_deg), radians(z_deg), out);
 
 /**
- * Unity's left-handed axes to the robot's (rows N-20, N-22, golden G-12):  S = [−x, −z, y], det S = −1, S (1, 2, 3) = (−1, −3, 2).
+ * Unity's left-handed axes to the robot's (rows N-20, N-22, golden G-12):
+ *   S = [−x, −z, y], det S = −1, S (1, 2, 3) = (−1, −3, 2).
  * Positions: S p. Orientations: S R Sᵀ, for a quaternion u → det(S) · S u = (x, z, −y) with w as it is.
  */
 export function fromUnity(unity: Pose, out: Pose): Pose {

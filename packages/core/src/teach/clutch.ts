@@ -48,9 +48,9 @@ export function takeGrip(worldFromHand: Pose<"world", "hand">, worldFromTcp: Pos
 /**
  * Where the tip should be for the present hand.
  *
- *   worldFromTcp = worldFromHand · handFromTcp                                        scale 1, nothing locked
- *   p = p₀ + scale · (p_rigid − p₀)                                                   scaled
- *   p = p₀ + scale · (hand − hand₀), R = R₀                                           orientation locked: no lever arm (row L-30)
+ *   worldFromTcp = worldFromHand · handFromTcp   scale 1, nothing locked
+ *   p = p₀ + scale · (p_rigid − p₀)   scaled
+ *   p = p₀ + scale · (hand − hand₀), R = R₀   orientation locked: no lever arm (row L-30)
  *
  * Then at most `maxStep_m` and `maxTurn_rad` from the last answer; the rest is caught up in later frames.
  *

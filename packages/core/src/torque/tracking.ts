@@ -61,7 +61,9 @@ const STEP_S = 2.5e-4;
  *
  *   q̈ = FD(q, q̇, τ),   τ from the control,   q̇ ← q̇ + q̈ h,   q ← q + q̇ h
  *
- * Reference at override s:  q(s t), s q̇(s t), s² q̈(s t). Nothing but masses and saturation is in it: no friction, no play, no sensor.
+ * Reference at override s:
+ *   q(s t), s q̇(s t), s² q̈(s t).
+ * Nothing but masses and saturation is in it: no friction, no play, no sensor.
  */
 export function trackingError(
   plan: Plan,

@@ -32,7 +32,8 @@ const LARGEST_M = 100;
  * Reads a Denavit–Hartenberg table. Convention and units are stated in the file, nothing is guessed.
  *
  * JSON:
- * `{"convention":"modified","units":{"length":"mm","angle":"deg"},"rows":[{"a":0,"alpha":0,"d":420,"theta":0,"lower":-160,…}]}`
+ * `{"convention":"modified","units":{"length":"mm","angle":"deg"},
+ *   "rows":[{"a":0,"alpha":0,"d":420,"theta":0,"lower":-160,…}]}`
  * Text: `# convention: modified`, `# units: mm deg`, a line of column names, a line per joint; commas, semicolons, tabs
  * or spaces between.
  *

@@ -1,7 +1,8 @@
 import type { Robot } from "@twincell/core";
 
 /**
- * How the pendant shows the joints of a robot:  J_i = degrees(q_i), but J3 = degrees(q_3 − factor · q_2): the forearm against
+ * How the pendant shows the joints of a robot:
+ *   J_i = degrees(q_i), but J3 = degrees(q_3 − factor · q_2): the forearm against
  * the horizon. A robot without a line is refused instead of guessed.
  */
 export interface PendantConvention {

@@ -1,8 +1,9 @@
 import type { Robot } from "@twincell/core";
 
 /**
- * How a Yaskawa controller counts the axes S, L, U, R, B, T of a robot:  axis_deg = sign · degrees(q) + offset_deg.  One line
- * per robot whose controller speaks INFORM; a robot without a line is refused instead of guessed.
+ * How a Yaskawa controller counts the axes S, L, U, R, B, T of a robot:
+ *   axis_deg = sign · degrees(q) + offset_deg.
+ * One line per robot whose controller speaks INFORM; a robot without a line is refused instead of guessed.
  */
 export interface AxisConvention {
   readonly signs: readonly number[];

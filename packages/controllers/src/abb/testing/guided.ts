@@ -93,7 +93,8 @@ export async function errorEndsTheMotion(
 }
 
 /**
- * Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last state is to where the pendant's jog ended.
+ * Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last
+ * state is to where the pendant's jog ended.
  */
 export async function followsThePendant(
   { real, virtual, carryOut, scheduler, heard }: StreamingBench,

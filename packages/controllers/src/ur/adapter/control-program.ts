@@ -3,12 +3,14 @@
  * and up are those for clients of RTDE. It stops by itself when the heartbeat stays away: the robot's own watchdog, not
  * ours.
  *
- *   input int 24     heartbeat, written again and again            output int 24   number of the order that has ended
- *   input int 25     number of the order; a new one begins it      output int 25   LISTENING while the program takes orders
+ *   input int 24     heartbeat, written again and again
+ *   input int 25     number of the order; a new one begins it
  *   input int 26     what is ordered: see ORDERS
  *   input double 24  joints [rad] or flange pose of the target, six
  *   input double 30  flange pose of the point on an arc, six
  *   input double 36  speed [rad/s or m/s]; 37 acceleration [rad/s² or m/s²]
+ *   output int 24    number of the order that has ended
+ *   output int 25    LISTENING while the program takes orders
  */
 export const ORDERS = { joints: 1, line: 2, arc: 3, stop: 4, payload: 5 } as const;
 export const REGISTERS = {

@@ -4,7 +4,8 @@ import type { Pose } from "../../spatial/pose.ts";
 import { norm } from "../../spatial/vector.ts";
 
 /**
- * What is missing to a pose, in the base:  out = ( p* − p ;  rotation vector of R* Rᵀ ), six numbers [m, rad]; the vector is 0 … π long.
+ * What is missing to a pose, in the base:
+ *   out = ( p* − p ;  rotation vector of R* Rᵀ ), six numbers [m, rad]; the vector is 0 … π long.
  * It is the downhill direction of ½|p* − p|² + ½angle², seen by the tip. Allocates nothing.
  */
 export function poseError(wanted: Pose, present: Pose, out: Float64Array): void {

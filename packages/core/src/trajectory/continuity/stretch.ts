@@ -141,7 +141,8 @@ export class StretchFollower {
   }
 
   /**
-   * Whether the planner gets along the path that was followed last, where that is in doubt. @param q  posture at its start.
+   * Whether the planner gets along the path that was followed last, where that is in doubt. @param q  posture at its
+   * start.
    */
   confirm(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, q: ArrayLike<number>): Lost | undefined {
     if (!this.steep) return undefined;

@@ -11,7 +11,8 @@ const ROUNDING = 1e-9;
 /**
  * The farthest way an axis can come in a given time, all limits kept and the end state met.
  *
- *   accelerate, keep A, decelerate (through V, kept for a while), keep −A, let go;   x the highest, y the lowest acceleration
+ *   accelerate, keep A, decelerate (through V, kept for a while), keep −A, let go;
+ *   x the highest, y the lowest acceleration
  *   c₀ = v₀ − a₀²/2j,  c₂ = v₁ − a₁²/2j,  peak speed c₁ = c₀ + x²/j + A τ₁ = c₂ + y²/j + A τ₂,  K = j (c₂ − c₀)
  *   j T = 2 (x − y) + j (τ₁ + τ_V + τ₂) + a₁ − a₀
  *   j way = c₀ (x − a₀) + c₁ (x − y) + c₂ (a₁ − y) + (a₁³ − a₀³)/6j + j τ₁ (c₀ + c₁)/2 + j τ₂ (c₁ + c₂)/2 + j τ_V V
