@@ -41,6 +41,7 @@ test("M-38 M-39 M-40 M-47 L-32 a dropped demonstration is filtered, laid over th
   const fact = (name: string): Promise<string> =>
     dialog.locator("dl.facts > div", { hasText: name }).locator("dd").innerText();
   expect([await fact("Samples"), await fact("Rate")]).toEqual(["301", "50 a second"]);
+  await expect.poll(() => fact("Stops")).toBe("2");
   expect([await fact("Stops"), await fact("Straights"), await fact("Curves")]).toEqual(["2", "1", "1"]);
   expect(Number(await fact("Points left"))).toBeLessThan(20);
   const deviation_mm = parseFloat(await fact("Largest deviation"));

@@ -771,6 +771,7 @@ export const en = {
   demonstration: {
     title: "Demonstration",
     unreadable: (file: string, line: number, why: string) => `${file}, line ${line}: ${why}`,
+    notFiltered: (file: string, why: string) => `${file} could not be filtered: ${why || "its worker ended"}.`,
     unreadableHint: "A demonstration has columns t_s, x_m, y_m, z_m and, when known, qx, qy, qz, qw and closed.",
     original: "The hand",
     filtered: "Filtered",

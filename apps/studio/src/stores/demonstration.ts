@@ -8,13 +8,15 @@ export interface OpenDemonstration {
   /** Lines of its file that were left out. */
   readonly dropped: number;
   readonly options: FilterOptions;
-  /** null while it is worked on or when it could not be. */
+  /** What was asked for last is being worked on. */
+  readonly working: boolean;
+  /** null until it was filtered for the first time. */
   readonly filtered: FilteredDemonstration | null;
 }
 export const demonstrationStore = createStore<{ readonly open: OpenDemonstration | null }>(() => ({ open: null }));
 
 export const showDemonstration = (name: string, demonstration: Demonstration, dropped: number): void =>
   demonstrationStore.setState({
-    open: { name, demonstration, dropped, options: FILTER_DEFAULTS, filtered: null },
+    open: { name, demonstration, dropped, options: FILTER_DEFAULTS, working: true, filtered: null },
   });
 export const hideDemonstration = (): void => demonstrationStore.setState({ open: null });

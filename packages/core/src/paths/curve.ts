@@ -1,7 +1,7 @@
 import type { Pose } from "../spatial/pose.ts";
 import { transformPoint } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
-import { distance, dot, subtract, type Vector3 } from "../spatial/vector.ts";
+import { distance, dot, lerp, subtract, type Vector3 } from "../spatial/vector.ts";
 import type { EdgeChain } from "./features.ts";
 import type { EdgeLoop } from "./pick.ts";
 
@@ -78,8 +78,9 @@ export function pathDeviation(polyline: readonly Vector3[], points: readonly Vec
   let max_m = 0;
   let squares = 0;
   let at = 0;
+  const distanceTo = distancesTo(polyline);
   points.forEach((point, i) => {
-    const d = distanceToPolyline(polyline, point);
+    const d = distanceTo(point);
     squares += d * d;
     if (d > max_m) {
       max_m = d;
@@ -87,6 +88,44 @@ export function pathDeviation(polyline: readonly Vector3[], points: readonly Vec
     }
   });
   return { max_m, rms_m: points.length > 0 ? Math.sqrt(squares / points.length) : 0, at };
+}
+
+/** So many segments are looked at or left out together. */
+const RUN = 32;
+
+/**
+ * Distances of many points, neighbours near each other, from the nearest spot of a polyline [m]. Runs of segments that
+ * lie in a ball no nearer than the best so far are left out, so that long ways cost about as much as their ends.
+ */
+function distancesTo(polyline: readonly Vector3[]): (point: Vector3) => number {
+  const runs: { readonly from: number; readonly to: number; readonly centre: Vector3; readonly radius_m: number }[] =
+    [];
+  for (let from = 0; from < polyline.length - 1; from += RUN) {
+    const to = Math.min(from + RUN, polyline.length - 1);
+    const corners = polyline.slice(from, to + 1);
+    const centre = lerp(corners[0]!, corners.at(-1)!, 0.5);
+    runs.push({ from, to, centre, radius_m: Math.max(...corners.map(corner => distance(centre, corner))) });
+  }
+  let last = 0;
+  return point => {
+    if (runs.length === 0) return distanceToPolyline(polyline, point);
+    let least = Infinity;
+    let nearest = last;
+    const look = (n: number): void => {
+      const { from, to, centre, radius_m } = runs[n]!;
+      if (distance(point, centre) - radius_m >= least) return;
+      for (let i = from; i < to; i++) {
+        const d = distanceToSegment(polyline[i]!, polyline[i + 1]!, point);
+        if (d >= least) continue;
+        least = d;
+        nearest = n;
+      }
+    };
+    look(last);
+    for (let n = 0; n < runs.length; n++) if (n !== last) look(n);
+    last = nearest;
+    return least;
+  };
 }
 
 /** Distance of a point from the nearest spot of a polyline [m]. */

@@ -4,6 +4,7 @@ import {
   appendStep,
   applyRepair,
   duplicateSteps,
+  freshGroupIds,
   freshStepId,
   insertAfter,
   insertBefore,
@@ -27,6 +28,15 @@ const of = (...ids: string[]): Program => ({ ...emptyProgram("staubli_rx90l"), s
 const ids = (program: Program): string => program.steps.map(step => step.id).join(" ");
 
 describe("edits of a program", () => {
+  test("ids of new groups are no group's, also after one before them was taken away", () => {
+    const program = {
+      ...of("a"),
+      groups: { "edge-2": { name: "Edge 2" }, "edge-x": { name: "Edge" }, "path-7": { name: "Path" } },
+    };
+    expect(freshGroupIds(program, 2, "edge-")).toEqual(["edge-3", "edge-4"]);
+    expect(freshGroupIds(program, 1, "demonstration-")).toEqual(["demonstration-1"]);
+  });
+
   test("insert, append, remove, replace", () => {
     expect(ids(insertSteps(of("a", "b"), 1, [wait("x"), wait("y")]))).toBe("a x y b");
     expect(ids(insertBefore(of("a", "b"), "b", [wait("x")]))).toBe("a x b");

@@ -30,6 +30,16 @@ export function freshStepIds(program: Tree, count: number, prefix = "s"): string
   return Array.from({ length: count }, (_, i) => `${prefix}${highest + 1 + i}`);
 }
 
+/** Ids of groups the program does not have: `prefix` and the next numbers. */
+export function freshGroupIds({ groups }: Pick<Program, "groups">, count: number, prefix: string): string[] {
+  let highest = 0;
+  for (const id of Object.keys(groups)) {
+    const digits = id.startsWith(prefix) ? id.slice(prefix.length) : "";
+    if (/^[0-9]{1,15}$/.test(digits)) highest = Math.max(highest, Number(digits));
+  }
+  return Array.from({ length: count }, (_, i) => `${prefix}${highest + 1 + i}`);
+}
+
 /** The same steps under ids the program does not have, also inside blocks. */
 export function withFreshIds(program: Tree, steps: readonly Step[], prefix = "s"): Step[] {
   const fresh = freshStepIds({ ...program, steps: [...program.steps, ...steps] }, [...everyIn(steps)].length, prefix);

@@ -26,7 +26,7 @@ export default function DemonstrationDialog() {
             {words.common.cancel}
           </button>
           <span className="grow" />
-          <button className="btn primary" disabled={!open?.filtered} onClick={teachDemonstration}>
+          <button className="btn primary" disabled={!open?.filtered || open.working} onClick={teachDemonstration}>
             {words.demonstration.teach}
           </button>
         </>

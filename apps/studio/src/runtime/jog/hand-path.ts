@@ -2,10 +2,10 @@ import {
   angleBetween,
   copyPose,
   distance,
+  freshGroupIds,
   freshStepIds,
   identity,
   type MoveStep,
-  type Program,
   type Speed,
 } from "@twincell/core";
 import { cellStore } from "../../stores/cell.ts";
@@ -79,7 +79,8 @@ export function startHandPath(): () => void {
     if (turned(q, SAME_RAD)) keep(q, now_ms);
     const took_s = (now_ms - began_ms) / 1000;
     const mps = Math.min(FASTEST_MPS, Math.max(SLOWEST_MPS, took_s > 0 ? way_m / took_s : SLOWEST_MPS));
-    group ||= freshGroup(theProgram());
+    const program = theProgram();
+    if (program) group ||= freshGroupIds(program, 1, "path-")[0]!;
     const first = goesOn ? 1 : 0;
     if (
       count > 1 &&
@@ -187,10 +188,4 @@ function addStroke(stroke: Float64Array, joints: number, group: string, speed: S
         : { ...program, groups: { ...program.groups, [group]: { name: words.jog.pathGroup } } },
     gesture,
   );
-}
-
-function freshGroup(program: Program | null): string {
-  let n = 1;
-  while (program && Object.hasOwn(program.groups, `path-${n}`)) n++;
-  return `path-${n}`;
 }

@@ -1,4 +1,5 @@
 import {
+  freshGroupIds,
   freshStepIds,
   linkSolids,
   type MoveStep,
@@ -131,8 +132,7 @@ interface EdgeIds {
   readonly on: readonly string[];
 }
 
-const groupId = (program: Program, edge: number): string =>
-  `edge-${Object.keys(program.groups).filter(name => name.startsWith("edge-")).length + edge + 1}`;
+const GROUP_PREFIX = "edge-";
 
 function traceGroups(
   program: Program,
@@ -140,12 +140,12 @@ function traceGroups(
   options: TraceOptions,
   chosen: Chosen,
 ): Program["groups"] {
-  const before = Object.keys(program.groups).filter(name => name.startsWith("edge-")).length;
+  const groups = freshGroupIds(program, edges.length, GROUP_PREFIX);
   return Object.fromEntries(
     edges.map(({ on }, i) => [
-      groupId(program, i),
+      groups[i]!,
       {
-        name: words.trace.group(before + i + 1),
+        name: words.trace.group(Number(groups[i]!.slice(GROUP_PREFIX.length))),
         recipe: { ...options, object: chosen[i]?.object, edge: chosen[i]?.edge, edgeSteps: on },
       },
     ]),
@@ -165,6 +165,7 @@ function traceSteps(
   const angles = (q: readonly number[]): MoveStep["target"] => (tool === "flange" ? { q } : { q, tool });
   const target = (point: TracedPoint): MoveStep["target"] =>
     "q" in point ? angles(point.q) : { pose: point.worldFromTcp as Pose as Pose<"frame", "tcp">, frame: "world", tool };
+  const groups = freshGroupIds(program, edges.length, GROUP_PREFIX);
   let next = 0;
   const home = (): Step => ({
     id: ids[next++]!,
@@ -193,7 +194,7 @@ function traceSteps(
       steps.push({
         id: ids[next++]!,
         type: "move",
-        group: groupId(program, i),
+        group: groups[i]!,
         path,
         target: target(point),
         speed: arriving ? { ratio: APPROACH_RATIO } : { mps: options.speed_mps },

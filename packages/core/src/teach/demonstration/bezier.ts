@@ -1,4 +1,4 @@
-import { distance, type Vector3 } from "../../spatial/vector.ts";
+import { distance, lerp, type Vector3 } from "../../spatial/vector.ts";
 
 /** A cubic Bézier curve:  B(u) = (1−u)³ p₀ + 3(1−u)²u p₁ + 3(1−u)u² p₂ + u³ p₃. */
 export type Bezier = readonly [Vector3, Vector3, Vector3, Vector3];
@@ -39,7 +39,7 @@ export function averagedBeziers(samples: readonly Vector3[]): Bezier[] {
   for (let g = 0; g < groups; g++) {
     const from = Math.floor((g * inner.length) / groups);
     const group = inner.slice(from, Math.max(from + 1, Math.floor(((g + 1) * inner.length) / groups)));
-    control.push(group.length > 0 ? meanPoint(group) : between(samples[0]!, samples.at(-1)!, (g + 1) / (groups + 1)));
+    control.push(group.length > 0 ? meanPoint(group) : lerp(samples[0]!, samples.at(-1)!, (g + 1) / (groups + 1)));
   }
   control.push(samples.at(-1)!);
   return Array.from({ length: curves }, (_, c) => [
@@ -52,8 +52,6 @@ export function averagedBeziers(samples: readonly Vector3[]): Bezier[] {
 
 export const meanPoint = (points: readonly Vector3[]): Vector3 =>
   [0, 1, 2].map(k => points.reduce((sum, point) => sum + point[k]!, 0) / points.length) as Vector3;
-
-const between = (a: Vector3, b: Vector3, t: number): Vector3 => a.map((v, k) => v + t * (b[k]! - v)) as Vector3;
 
 /**
  * Curves through the ends of a stretch whose inner control points are fitted by least squares over the samples, by
@@ -101,7 +99,7 @@ function fitted(samples: readonly Vector3[], u: readonly number[]): Bezier {
   });
   const determinant = aa * bb - ab * ab;
   // Fewer than two inner samples do not determine two control points: a straight one.
-  if (determinant < 1e-9) return [p0, between(p0, p3, 1 / 3), between(p0, p3, 2 / 3), p3];
+  if (determinant < 1e-9) return [p0, lerp(p0, p3, 1 / 3), lerp(p0, p3, 2 / 3), p3];
   return [
     p0,
     ra.map((value, k) => (value * bb - rb[k]! * ab) / determinant) as Vector3,

@@ -1,5 +1,5 @@
-import { conjugate, multiply, type Quaternion } from "../../spatial/quaternion.ts";
-import type { Vector3 } from "../../spatial/vector.ts";
+import { scale, type Vector3 } from "../../spatial/vector.ts";
+import { turnBetween } from "../../trajectory/geometry.ts";
 import type { Demonstration } from "./demonstration.ts";
 
 /** What the tool did at each sample, in the world. */
@@ -28,17 +28,9 @@ export function demonstratedMotion({ times_s, worldFromTcp }: Demonstration): De
     velocity_mps,
     angular_radps: times_s.map((_, i) => {
       const [a, b] = around(i);
-      return turnBetween(worldFromTcp[a]!.quaternion, worldFromTcp[b]!.quaternion, times_s[b]! - times_s[a]!);
+      const turn = turnBetween(worldFromTcp[a]!.quaternion, worldFromTcp[b]!.quaternion);
+      return scale(turn, 1 / (times_s[b]! - times_s[a]!));
     }),
     acceleration_mps2: times_s.map((_, i) => slope(k => velocity_mps[k]!, i)),
   };
-}
-
-/** The constant angular velocity that turns `from` into `to` in that time, the short way [rad/s]. */
-function turnBetween(from: Quaternion, to: Quaternion, time_s: number): Vector3 {
-  const [x, y, z, w] = multiply(to, conjugate(from));
-  const sine = Math.hypot(x, y, z);
-  if (sine < 1e-12) return [0, 0, 0];
-  const angle = 2 * Math.atan2(sine, Math.abs(w)) * (w < 0 ? -1 : 1);
-  return [x, y, z].map(part => (part / sine) * (angle / time_s)) as Vector3;
 }

@@ -1,9 +1,10 @@
 import { palletCount, type Pallet } from "../../paths/pallet.ts";
 import { distance } from "../../spatial/vector.ts";
 import { compose, inverse, type Pose } from "../../spatial/pose.ts";
+import { freshStepId } from "../../program/edit.ts";
 import type { Program, Step } from "../../program/program.ts";
 
-export type OnPallet =
+export type RepeatedOnPallet =
   | { readonly kind: "program"; readonly program: Program; readonly places: number }
   | { readonly kind: "refused"; readonly sentence: string };
 
@@ -16,8 +17,8 @@ export type OnPallet =
  *   angles.
  * @param name     of the pallet, which no frame has.
  */
-export function repeatOnPallet(program: Program, name: string, pallet: Pallet): OnPallet {
-  const refused = (sentence: string): OnPallet => ({ kind: "refused", sentence });
+export function repeatOnPallet(program: Program, name: string, pallet: Pallet): RepeatedOnPallet {
+  const refused = (sentence: string): RepeatedOnPallet => ({ kind: "refused", sentence });
   if (Object.hasOwn(program.frames, name) || Object.hasOwn(program.pallets, name))
     return refused(`The program has a frame or pallet “${name}” already.`);
   const grips = program.steps.flatMap((step, i) => (step.type === "gripper" ? [{ closed: step.closed, i }] : []));
@@ -52,7 +53,7 @@ export function repeatOnPallet(program: Program, name: string, pallet: Pallet): 
     program: {
       ...program,
       pallets: { ...program.pallets, [name]: pallet },
-      steps: [{ id: freshId(program), type: "pallet", pallet: name, steps }],
+      steps: [{ id: freshStepId(program, "pallet-"), type: "pallet", pallet: name, steps }],
     },
   };
 }
@@ -66,11 +67,4 @@ function worldPose<From extends string>(
   if (frame === "world") return pose as Pose<string, From> as Pose<"world", From>;
   const worldFromFrame = program.frames[frame];
   return worldFromFrame && compose(worldFromFrame, pose);
-}
-
-function freshId({ steps }: Program): string {
-  const taken = new Set(steps.map(step => step.id));
-  let n = 1;
-  while (taken.has(`pallet-${n}`)) n++;
-  return `pallet-${n}`;
 }

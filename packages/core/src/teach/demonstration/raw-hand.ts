@@ -1,6 +1,6 @@
-import { compose, pose, type Pose } from "../../spatial/pose.ts";
-import { normalizeQuaternion, rotate, type Quaternion } from "../../spatial/quaternion.ts";
-import type { Vector3 } from "../../spatial/vector.ts";
+import { pose, type Pose } from "../../spatial/pose.ts";
+import { conjugate, multiply, normalizeQuaternion, rotate, type Quaternion } from "../../spatial/quaternion.ts";
+import { add, type Vector3 } from "../../spatial/vector.ts";
 import { LEAST_SAMPLES, MOST_SAMPLES } from "./demonstration.ts";
 import { FINGERS, handBend, handClosed, type HandProfile } from "./hand-profile.ts";
 import type { ReadDemonstration } from "./table.ts";
@@ -65,11 +65,10 @@ export function readRawHand(
   const { position_m } = integrateTracker(times_s, accelerations, options);
   // The tool turns as the hand turned since the first sample.
   const [first] = turns;
-  const handFromWorld = pose<"hand", "world">([0, 0, 0], [-first![0], -first![1], -first![2], first![3]]);
+  const handFromWorld = conjugate(first!);
   const worldFromTcp = position_m.map((moved, i) => {
-    const turned = compose(pose<"world", "hand">([0, 0, 0], turns[i]!), handFromWorld);
-    const { quaternion } = compose(turned, pose<"world", "tcp">([0, 0, 0], start.quaternion));
-    return pose<"world", "tcp">(moved.map((v, k) => start.position[k]! + v) as Vector3, quaternion);
+    const turned = multiply(multiply(turns[i]!, handFromWorld), start.quaternion);
+    return pose<"world", "tcp">(add(start.position, moved), turned);
   });
   return { kind: "demonstration", demonstration: { times_s, worldFromTcp, closed }, dropped };
 }

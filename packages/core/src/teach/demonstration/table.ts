@@ -1,5 +1,6 @@
 import { pose, type Pose } from "../../spatial/pose.ts";
-import { multiply, normalizeQuaternion, fromAxisAngle, type Quaternion } from "../../spatial/quaternion.ts";
+import { fromEulerAngles } from "../../spatial/turns.ts";
+import { normalizeQuaternion, type Quaternion } from "../../spatial/quaternion.ts";
 import { radians } from "../../spatial/units.ts";
 import { LEAST_SAMPLES, MOST_SAMPLES, type Demonstration } from "./demonstration.ts";
 import { demonstratedMotion } from "./motion.ts";
@@ -99,9 +100,9 @@ function readersOf(columns: readonly string[]): Readers | { readonly kind: "miss
         return Math.hypot(...q) > 1e-6 ? normalizeQuaternion(q) : ([NaN, NaN, NaN, NaN] as Quaternion);
       }
       if (!byAngles) return absent;
-      const turn = (axis: "rx_deg" | "ry_deg" | "rz_deg", about: [number, number, number]): Quaternion =>
-        fromAxisAngle(about, radians(value(values, axis)));
-      return multiply(turn("rz_deg", [0, 0, 1]), multiply(turn("ry_deg", [0, 1, 0]), turn("rx_deg", [1, 0, 0])));
+      const [rx_deg, ry_deg, rz_deg] = ["rx_deg", "ry_deg", "rz_deg"].map(name => value(values, name));
+      // About fixed x, y, z is the same as about moving z, y, x.
+      return fromEulerAngles("zyx", radians(rz_deg!), radians(ry_deg!), radians(rx_deg!));
     },
     closed: values => all("closed") && value(values, "closed") > 0.5,
   };
