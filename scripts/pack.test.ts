@@ -14,7 +14,6 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-// @ts-expect-error The script runs on any Node, without types.
 import { isAllowed, released } from "./licences.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));

@@ -98,7 +98,7 @@ describe("twincell demonstrate", () => {
     expect(twincell(["demonstrate", "score", at("expert.csv"), at("far.csv"), "--within-mm", "1"]).code).toBe(1);
   }, 30_000);
 
-  test("M-27 M-29 M-30 M-35 a hand is calibrated, and its glove's raw lines become a table with velocities", () => {
+  test("M-29 M-30 M-35 a hand is calibrated, and its glove's raw lines become a table with velocities", () => {
     const sweep = Array.from({ length: 20 }, (_, i) => 300 + 140 * i);
     const readings = [9.81, 0, -9.81].map(a => ({ voltage_V: (a + 24) / 9.6, acceleration_mps2: a }));
     writeFileSync(

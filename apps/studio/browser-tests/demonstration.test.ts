@@ -29,7 +29,7 @@ function table(): string {
   return lines.join("\n");
 }
 
-test("M-38 M-39 M-40 M-47 L-32 a dropped demonstration is filtered, laid over the hand with its deviation, and becomes steps that the check takes", async () => {
+test("M-38 M-39 M-40 M-47 a dropped demonstration is filtered, laid over the hand with its deviation, and becomes steps that the check takes", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.evaluate(() => window.twincell.stores.viewStore.setState({ coachDone: true }));

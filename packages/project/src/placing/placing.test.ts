@@ -36,7 +36,7 @@ test("what is moved with a pivot keeps its pose relative to it", () => {
   );
 });
 
-test("a box 4 mm above the floor and 3 mm beside a table comes to lie on the floor, flush with the table; Shift-less axes stay", () => {
+test("a box 4 mm above the floor and 3 mm beside a table comes to lie on the floor, flush with the table; along an axis that is not asked for it stays", () => {
   const table = { name: "Table", bounds: worldBounds(box("t", [1, 0, 0.5]).shape, pose([1, 0, 0.5])) };
   const at: Vector3 = [0.797, 0.123, 0.304];
   const moved = box("b", at);

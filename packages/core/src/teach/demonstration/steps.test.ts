@@ -65,7 +65,7 @@ const programOf = (demonstration: Demonstration, exactDurations = false): Progra
   }),
 });
 
-describe("L-32 a demonstration becomes an editable program", () => {
+describe("a demonstration becomes an editable program", () => {
   const demonstration = pickAndPlace(0.001);
   const program = programOf(demonstration);
 

@@ -28,7 +28,7 @@ const SLOWEST_MPS = 0.005;
 const FASTEST_MPS = 1.5;
 
 /**
- * The steps of a filtered demonstration (row L-32): PTP to the first point, then with the hand's own timing: a straight
+ * The steps of a filtered demonstration: PTP to the first point, then with the hand's own timing: a straight
  * is one LIN and a curve a chain of splines at the hand's mean speed there, a stop of at least
  * `waitsFrom_s` a wait, and a change of the grip a gripper step.
  */
