@@ -17,6 +17,26 @@ const mayInstall = {
   project: ["zod"],
   protocol: ["zod"],
 };
+/** Folders of core, lowest first: each may use those before it and the files beside them that know no folder. */
+const coreLayers = [
+  "spatial",
+  "mesh",
+  "model",
+  "kinematics",
+  "json",
+  "robots",
+  "catalogue",
+  "dynamics",
+  "program",
+  "trajectory",
+  "collision",
+  "physical",
+  "planning",
+  "paths",
+  "teach",
+  "checks",
+];
+const coreFoundation = "(fault|outcomes|random|signals)[.]ts$";
 const any = names => names.join("|");
 const test = "[.]test[.]tsx?$|/testing/";
 
@@ -37,6 +57,19 @@ export default {
       to: {
         dependencyTypes: ["npm", "npm-dev", "npm-peer", "npm-optional", "npm-no-pkg", "npm-unknown", "core", "unknown"],
         pathNot: ["^packages/", ...mayInstall[name].map(dep => `node_modules/${dep}`)],
+      },
+    })),
+    ...[...coreLayers, "calibration"].map((name, i) => ({
+      name: `core-${name}-uses-lower-layers`,
+      severity: "error",
+      comment: `core's folders are layers: ${coreLayers.join(" < ")}`,
+      from: { path: `^packages/core/src/${name}/`, pathNot: test },
+      to: {
+        path: "^packages/core/src/",
+        pathNot: [
+          `^packages/core/src/(${any(name === "calibration" ? ["spatial", name] : coreLayers.slice(0, i + 1))})/`,
+          `^packages/core/src/${coreFoundation}`,
+        ],
       },
     })),
     {

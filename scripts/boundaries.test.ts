@@ -31,6 +31,12 @@ test.each([
     "core-knows-only-its-own",
   ],
   [
+    "core's folders are layers",
+    "packages/core/src/kinematics",
+    'import * as x from "../trajectory/index.ts";\nexport const y = x;\n',
+    "core-kinematics-uses-lower-layers",
+  ],
+  [
     "neighbours are strangers",
     "packages/recording/src",
     'import * as x from "@twincell/controllers";\nexport const y = x;\n',

@@ -1,4 +1,6 @@
-import type { Robot } from "./robots/robot.ts";
+import type { CommandOutcome, Refusal, TextFault } from "./outcomes.ts";
+import type { Signals } from "./signals.ts";
+import type { Robot } from "./model/robot.ts";
 import type { GraspSignal } from "./physical/grasp.ts";
 import type { PhysicalScene } from "./physical/scene.ts";
 import type { Pose } from "./spatial/pose.ts";
@@ -15,15 +17,6 @@ export interface Scheduler {
 
 export type OperatingMode = "manual" | "automatic" | "remote";
 export type SafetyState = "normal" | "guard-stop" | "protective-stop" | "emergency-stop";
-
-/**
- * The lines in and out of a controller by their names in the program. A line nobody has written to yet is false; an
- * analogue one reads 0.
- */
-export interface Signals {
-  read(signal: string): boolean | number;
-  write(signal: string, value: boolean | number): void;
-}
 
 /** What a robot says of itself at one instant. */
 export interface JointSample {
@@ -66,21 +59,6 @@ export interface Timeline {
   play(): void;
   pause(): void;
 }
-
-/** Why a command was not carried out, or carried out only in part. */
-export interface Refusal {
-  readonly code: string;
-  readonly sentence: string;
-  readonly hint: string;
-  /** Where a joint or a limit is the reason: which (counts from 1), what was wanted, what is allowed [SI]. */
-  readonly joint?: number;
-  readonly value?: number;
-  readonly limit?: number;
-}
-export type CommandOutcome =
-  | { readonly kind: "done" }
-  | { readonly kind: "refused"; readonly why: Refusal }
-  | { readonly kind: "stopped"; readonly why: Refusal };
 
 /** One interface for virtual, real and twin robots (rows T-01 … T-18). Joints count from 1. */
 export interface RobotController extends StateSource {
@@ -157,16 +135,6 @@ export interface RealController extends RobotController {
 export type UploadedProgram =
   | { readonly kind: "handed"; start(): Promise<CommandOutcome> /** It is not started after all. */; drop(): void }
   | { readonly kind: "refused"; readonly why: Refusal };
-
-/** A place in a text, counted from 1. */
-export interface TextPlace {
-  readonly line: number;
-  readonly column: number;
-}
-export interface TextFault extends TextPlace {
-  readonly expected: string;
-  readonly sentence: string;
-}
 
 export interface EmittedFile {
   readonly name: string;

@@ -5,7 +5,7 @@ import {
   linkSolids,
   OtherArm,
   robotAndCell,
-  FileRunStorage,
+  SolidCache,
   type CellObject,
   type LinkSolid,
   type Pose,
@@ -114,7 +114,7 @@ export function createSharedCell({
   yielded_m = YIELDED_M,
 }: SharedCellOptions = {}): SharedCell {
   const members = new Set<Member>();
-  const runStorage = new FileRunStorage();
+  const solidCache = new SolidCache();
   const solids = new Map<string, LinkSolid[]>();
   let opened = 0;
   const solidsOf = (robot: Robot): LinkSolid[] => {
@@ -133,7 +133,7 @@ export function createSharedCell({
     const collider = new CellCollider(
       { worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
       robot.arm,
-      runStorage,
+      solidCache,
     );
     const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
 

@@ -1,10 +1,10 @@
-import type { SerialArm } from "../robots/arm.ts";
-import { isSlide, slideOf } from "../robots/slide.ts";
-import { mergeMeshes } from "../shapes/assemble.ts";
+import type { SerialArm } from "../model/arm.ts";
+import { isSlide, slideOf } from "../model/slide.ts";
+import { mergeMeshes } from "../mesh/assemble.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { norm, type Vector3 } from "../spatial/vector.ts";
 import type { CellGeometry, CellObject } from "./cell.ts";
-import type { TriangleMesh } from "./mesh.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 import { rigid, rigidFromPose, type Rigid } from "./relative.ts";
 import { buildSolid, type Solid } from "./solid.ts";
 
@@ -12,7 +12,7 @@ import { buildSolid, type Solid } from "./solid.ts";
  * Trees already built, kept as long as their meshes are: the same mesh twice in a cell, or a cell edited, costs
  * nothing.
  */
-export class FileRunStorage {
+export class SolidCache {
   readonly #solids = new WeakMap<TriangleMesh, Solid>();
 
   of(mesh: TriangleMesh): Solid {
@@ -47,7 +47,7 @@ export interface Body {
   reach_m: readonly number[];
 }
 
-export function bodiesOf(cell: CellGeometry, arm: SerialArm, runStorage: FileRunStorage): Body[] {
+export function bodiesOf(cell: CellGeometry, arm: SerialArm, solidCache: SolidCache): Body[] {
   const bodies: Body[] = [];
   for (const link of [...new Set(cell.links.map(solid => solid.link))].sort((a, b) => a - b)) {
     const meshes = cell.links.filter(solid => solid.link === link).map(solid => solid.mesh);
@@ -56,7 +56,7 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, runStorage: FileRun
         `link ${link}`,
         "link",
         meshes.length === 1 ? meshes[0]! : mergeMeshes(meshes.map(mesh => ({ mesh }))),
-        runStorage,
+        solidCache,
         link,
         identity(),
       ),
@@ -68,31 +68,31 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, runStorage: FileRun
         "tool",
         "tool",
         cell.tool.mesh,
-        runStorage,
+        solidCache,
         arm.joints.length,
         compose(arm.lastJointFromFlange as Pose, identity()),
       ),
     );
-  for (const object of cell.objects) bodies.push(objectBody(object, runStorage));
+  for (const object of cell.objects) bodies.push(objectBody(object, solidCache));
   for (const each of bodies) each.reach_m = reachesOf(each, arm);
   return bodies;
 }
 
-export const objectBody = ({ id, mesh, worldFromObject }: CellObject, runStorage: FileRunStorage): Body =>
-  body(id, "object", mesh, runStorage, WORLD, compose(identity(), worldFromObject as Pose));
+export const objectBody = ({ id, mesh, worldFromObject }: CellObject, solidCache: SolidCache): Body =>
+  body(id, "object", mesh, solidCache, WORLD, compose(identity(), worldFromObject as Pose));
 
 function body(
   name: string,
   kind: Body["kind"],
   mesh: TriangleMesh,
-  runStorage: FileRunStorage,
+  solidCache: SolidCache,
   carrier: number,
   carrierFromBody: Pose,
 ): Body {
   return {
     name,
     kind,
-    solid: runStorage.of(mesh),
+    solid: solidCache.of(mesh),
     carrier,
     carrierFromBody,
     worldFromBody: rigid(),

@@ -1,4 +1,4 @@
-import type { TriangleMesh } from "./mesh.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 
 /** Triangles a leaf holds at most: measured best between 2 and 8 on robot links against a jig. */
 export const LEAF_TRIANGLES = 4;

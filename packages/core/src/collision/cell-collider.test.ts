@@ -8,7 +8,7 @@ import {
   LIBRARY,
   pose,
   seededRandom,
-  FileRunStorage,
+  SolidCache,
   sphereMesh,
   transformMesh,
   type CellObject,
@@ -142,9 +142,9 @@ describe("objects come, go and are gripped", () => {
   });
 
   test("trees are built once for a mesh", () => {
-    const runStorage = new FileRunStorage();
+    const solidCache = new SolidCache();
     const mesh = sphereMesh(0.1);
-    expect(runStorage.of(mesh)).toBe(runStorage.of(mesh));
+    expect(solidCache.of(mesh)).toBe(solidCache.of(mesh));
   });
 });
 

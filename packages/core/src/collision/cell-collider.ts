@@ -1,8 +1,8 @@
 import { armScratch, linkPoses } from "../kinematics/forward.ts";
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { compose, copyPose, identity, type Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
-import { bodiesOf, farApart, objectBody, placeBody, reachesOf, FileRunStorage, WORLD, type Body } from "./bodies.ts";
+import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidCache, WORLD, type Body } from "./bodies.ts";
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
 import { between, movePoints, rigidFromPose } from "./relative.ts";
@@ -55,7 +55,7 @@ export class CellCollider {
   readonly shapeError_m: number;
   readonly placeError_m: number;
   readonly #arm: SerialArm;
-  readonly #shelf: FileRunStorage;
+  readonly #solidCache: SolidCache;
   readonly #bodies: Body[];
   readonly #allowed = new Set<string>();
   readonly #decided = new Set<string>();
@@ -69,15 +69,15 @@ export class CellCollider {
   #pairs: SolidPair[] = [];
   #edition = 0;
 
-  /** @param runStorage  where built trees are kept; pass the same one when a cell is built again after an edit. */
-  constructor(cell: CellGeometry, arm: SerialArm, runStorage = new FileRunStorage()) {
+  /** @param solidCache  where built trees are kept; pass the same one when a cell is built again after an edit. */
+  constructor(cell: CellGeometry, arm: SerialArm, solidCache = new SolidCache()) {
     this.shapeError_m = cell.shapeError_m;
     this.placeError_m = cell.placeError_m ?? 0;
     this.#arm = arm;
-    this.#shelf = runStorage;
+    this.#solidCache = solidCache;
     this.#worldFromBase = copyPose(cell.worldFromBase);
     this.#baseFromLinks = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
-    this.#bodies = bodiesOf(cell, arm, runStorage);
+    this.#bodies = bodiesOf(cell, arm, solidCache);
     for (const [a, b] of cell.allowedPairs) this.#allowed.add(keyOf(a, b));
     for (const { a, b, watched } of cell.pairs?.entries ?? []) {
       this.#decided.add(keyOf(a, b));
@@ -166,7 +166,7 @@ export class CellCollider {
    * @param counts  which objects are looked at.
    */
   nearestObject(point_m: Vector3, within_m: number, counts: (id: string) => boolean): string | undefined {
-    const point = this.#shelf.of(POINT_MESH);
+    const point = this.#solidCache.of(POINT_MESH);
     const worldFromPoint = rigidFromPose({ position: point_m, quaternion: [0, 0, 0, 1] });
     let nearest: string | undefined;
     let limit = within_m;
@@ -311,7 +311,7 @@ export class CellCollider {
   /** Adds an object, or puts it in the place of the one with the same id. */
   setObject(object: CellObject): void {
     const at = this.#bodies.findIndex(body => body.name === object.id);
-    const body = objectBody(object, this.#shelf);
+    const body = objectBody(object, this.#solidCache);
     if (at >= 0) this.#bodies[at] = body;
     else this.#bodies.push(body);
     this.#arrange();

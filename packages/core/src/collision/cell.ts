@@ -1,5 +1,6 @@
 import type { Pose } from "../spatial/pose.ts";
-import type { TriangleMesh } from "./mesh.ts";
+import type { LinkSolid } from "../mesh/link-solid.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 import type { PairMatrix } from "./pairs.ts";
 
 /** A solid in the cell that does not belong to the robot. */
@@ -12,13 +13,6 @@ export interface CellObject {
   readonly carries_kg?: number;
   /** A work piece that a gripper may take and carry (row M-19). */
   readonly graspable?: true;
-}
-
-/** The solid of one robot link, in that link's frame (link 0 is the base). */
-export interface LinkSolid {
-  readonly link: number;
-  readonly name: string;
-  readonly mesh: TriangleMesh;
 }
 
 /**

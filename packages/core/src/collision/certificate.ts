@@ -1,5 +1,5 @@
-import type { SerialArm } from "../robots/arm.ts";
-import { isSlide, slideOf } from "../robots/slide.ts";
+import type { SerialArm } from "../model/arm.ts";
+import { isSlide, slideOf } from "../model/slide.ts";
 import { norm } from "../spatial/vector.ts";
 import type { CellCollider, SolidPair } from "./cell-collider.ts";
 import {

@@ -1,4 +1,4 @@
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import type { Body } from "./bodies.ts";
 import type { CellCollider, SolidPair } from "./cell-collider.ts";
 

@@ -1,6 +1,6 @@
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
-import type { TriangleMesh } from "./mesh.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 import { pairScratch, type PairScratch } from "./intersect.ts";
 import { between, rigid, rigidFromPose, type Rigid } from "./relative.ts";
 import { buildSolid, solidDistance, type Solid } from "./solid.ts";

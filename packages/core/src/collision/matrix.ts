@@ -1,4 +1,4 @@
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { seededRandom } from "../random.ts";
 import { CellCollider } from "./cell-collider.ts";
 import type { CellGeometry } from "./cell.ts";

@@ -1,8 +1,9 @@
 import { armScratch, linkPoses } from "../kinematics/forward.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, copyPose, identity, type Pose } from "../spatial/pose.ts";
 import type { CellCollider } from "./cell-collider.ts";
-import type { CellObject, LinkSolid } from "./cell.ts";
+import type { LinkSolid } from "../mesh/link-solid.ts";
+import type { CellObject } from "./cell.ts";
 
 /**
  * Another robot of the cell as a collider meets it: its links as objects, put where the robot's joints have them. Their

@@ -1,10 +1,10 @@
-import { isClosed, isOriented } from "../shapes/measure.ts";
-import { weldMesh } from "../shapes/weld.ts";
+import { isClosed, isOriented } from "../mesh/measure.ts";
+import { weldMesh } from "../mesh/weld.ts";
 import { buildBvh } from "./bvh.ts";
 import { keepsApart, surfaceDistance } from "./distance.ts";
 import { surfacesTouch, type PairScratch } from "./intersect.ts";
 import { pointInside, type Filling } from "./inside.ts";
-import type { TriangleMesh } from "./mesh.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 import { movePoints, type Rigid } from "./relative.ts";
 
 /** Files store the same corner more than once; corners nearer than this are the same [m]. */

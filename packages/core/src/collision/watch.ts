@@ -1,5 +1,5 @@
 import { armScratch, flangePose } from "../kinematics/forward.ts";
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { CellCollider, clearance, robotAndCell, TOUCH_M, type Clearance } from "./cell-collider.ts";
 import type { CellGeometry, Contact } from "./cell.ts";

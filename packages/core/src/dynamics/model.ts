@@ -1,6 +1,6 @@
-import type { LinkMass } from "../robots/arm.ts";
-import { isSlide } from "../robots/slide.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { LinkMass } from "../model/arm.ts";
+import { isSlide } from "../model/slide.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";

@@ -1,5 +1,5 @@
-import type { SerialArm } from "../robots/arm.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { SerialArm } from "../model/arm.ts";
+import type { Robot } from "../model/robot.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { candidates, settle, solverScratch, type SolverScratch } from "./candidates.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";

@@ -4,7 +4,7 @@ import type {
   Robot,
   SphericalSevenGeometry,
   ThreeParallelGeometry,
-} from "../robots/robot.ts";
+} from "../model/robot.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { determinantSign } from "./determinant.ts";

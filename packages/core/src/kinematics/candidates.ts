@@ -1,4 +1,4 @@
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { identity, posesAgree, type Pose } from "../spatial/pose.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";

@@ -1,6 +1,6 @@
 import { JointCountFault } from "../fault.ts";
-import type { SerialArm } from "../robots/arm.ts";
-import { isSlide } from "../robots/slide.ts";
+import type { SerialArm } from "../model/arm.ts";
+import { isSlide } from "../model/slide.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import { elbowChainOf } from "./elbow-chain.ts";
@@ -43,11 +43,11 @@ const SLIDE = 5;
  */
 export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratch): Float64Array {
   if (q.length !== arm.joints.length) throw new JointCountFault(arm.name, arm.joints.length, q.length);
-  return scratch.arm === arm ? scratch.chain : prepareJob(arm, scratch);
+  return scratch.arm === arm ? scratch.chain : layOutProgram(arm, scratch);
 }
 
 /** Apart from `chainOf`: what a closure keeps is allocated on entry, used or not. */
-function prepareJob(arm: SerialArm, scratch: ArmScratch): Float64Array {
+function layOutProgram(arm: SerialArm, scratch: ArmScratch): Float64Array {
   const rows = [
     ...arm.joints.map(joint => ({
       fixed: joint.parentFromJoint as Pose,

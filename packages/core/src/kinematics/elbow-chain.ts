@@ -1,5 +1,5 @@
-import type { SerialArm } from "../robots/arm.ts";
-import { isSlide } from "../robots/slide.ts";
+import type { SerialArm } from "../model/arm.ts";
+import { isSlide } from "../model/slide.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";

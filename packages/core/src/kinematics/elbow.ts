@@ -1,4 +1,4 @@
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { candidates, settle, solverScratch, type SolverScratch } from "./candidates.ts";

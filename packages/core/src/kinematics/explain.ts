@@ -1,4 +1,4 @@
-import { jointText } from "../robots/slide.ts";
+import { jointText } from "../model/slide.ts";
 import { degrees } from "../spatial/units.ts";
 import type { Reach } from "./reach.ts";
 

@@ -1,4 +1,4 @@
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
 import { elbowFlange } from "./elbow-chain.ts";

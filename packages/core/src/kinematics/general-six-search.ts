@@ -1,4 +1,4 @@
-import type { GeneralSixGeometry } from "../robots/robot.ts";
+import type { GeneralSixGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import {
   complete,

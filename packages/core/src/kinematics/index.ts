@@ -18,4 +18,3 @@ export * from "./singularity.ts";
 export * from "./workspace.ts";
 export * from "./explain.ts";
 export * from "./numeric/index.ts";
-export * from "./identity.ts";

@@ -1,4 +1,4 @@
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { branchOf, sameBranch, type Branch } from "./branch.ts";
 import {

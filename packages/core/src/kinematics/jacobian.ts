@@ -1,4 +1,4 @@
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";

@@ -1,4 +1,4 @@
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { compose, copyPose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { normalizeQuaternion } from "../spatial/quaternion.ts";
 import { flangePose } from "./forward.ts";

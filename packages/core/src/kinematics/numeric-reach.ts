@@ -1,5 +1,5 @@
 import { seededRandom } from "../random.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { explainNumeric, solveDamped } from "./numeric/damped.ts";
 import { dampedScratch } from "./numeric/damped-scratch.ts";

@@ -1,4 +1,4 @@
-import type { OrthoParallelGeometry } from "../robots/robot.ts";
+import type { OrthoParallelGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { formulaToJoints } from "./wrist.ts";
 

@@ -1,4 +1,4 @@
-import type { GeneralSixGeometry, Robot } from "../robots/robot.ts";
+import type { GeneralSixGeometry, Robot } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { CONDITION, evaluate, generalSixScratch, MARGIN, THETA6, wantWrist } from "./general-six.ts";
 import type { Reach } from "./reach.ts";

@@ -1,5 +1,5 @@
-import type { SerialArm } from "../robots/arm.ts";
-import type { SphericalSevenGeometry } from "../robots/robot.ts";
+import type { SerialArm } from "../model/arm.ts";
+import type { SphericalSevenGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { flangePose } from "./forward.ts";

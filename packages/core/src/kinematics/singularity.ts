@@ -1,5 +1,5 @@
-import type { SerialArm } from "../robots/arm.ts";
-import type { OrthoParallelGeometry, Robot, SphericalSevenGeometry, ThreeParallelGeometry } from "../robots/robot.ts";
+import type { SerialArm } from "../model/arm.ts";
+import type { OrthoParallelGeometry, Robot, SphericalSevenGeometry, ThreeParallelGeometry } from "../model/robot.ts";
 import { degrees, millimetres } from "../spatial/units.ts";
 import { jacobian } from "./jacobian.ts";
 import { singularValues } from "./manipulability.ts";

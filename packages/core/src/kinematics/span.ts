@@ -1,4 +1,4 @@
-import type { GeneralSixGeometry, OrthoParallelGeometry, Robot, ThreeParallelGeometry } from "../robots/robot.ts";
+import type { GeneralSixGeometry, OrthoParallelGeometry, Robot, ThreeParallelGeometry } from "../model/robot.ts";
 import { compose, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";

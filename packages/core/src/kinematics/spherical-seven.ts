@@ -1,4 +1,4 @@
-import type { SphericalSevenGeometry } from "../robots/robot.ts";
+import type { SphericalSevenGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 

@@ -1,4 +1,4 @@
-import type { ThreeParallelGeometry } from "../robots/robot.ts";
+import type { ThreeParallelGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 

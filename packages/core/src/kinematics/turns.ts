@@ -1,5 +1,5 @@
-import type { Joint } from "../robots/arm.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Joint } from "../model/arm.ts";
+import type { Robot } from "../model/robot.ts";
 
 const TURN = 2 * Math.PI;
 /** Rounding of limits given in degrees. */

@@ -1,4 +1,4 @@
-import type { DeclaredWorkspace, Robot } from "../robots/robot.ts";
+import type { DeclaredWorkspace, Robot } from "../model/robot.ts";
 import { identity, transformPoint, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import { cross, norm, subtract, type Vector3 } from "../spatial/vector.ts";

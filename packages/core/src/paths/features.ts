@@ -1,6 +1,6 @@
-import type { TriangleMesh } from "../collision/mesh.ts";
-import { meshBounds } from "../shapes/measure.ts";
-import { weldMesh } from "../shapes/weld.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
+import { meshBounds } from "../mesh/measure.ts";
+import { weldMesh } from "../mesh/weld.ts";
 import { distance, dot, type Vector3 } from "../spatial/vector.ts";
 import { fromVertex, nextInTriangle, topologyOf, toVertex, triangleOf, type Topology } from "./topology.ts";
 

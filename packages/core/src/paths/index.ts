@@ -13,4 +13,3 @@ export {
 } from "./curve.ts";
 export * from "./trace.ts";
 export * from "./refine.ts";
-export * from "./pallet.ts";

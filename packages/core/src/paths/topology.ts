@@ -1,4 +1,4 @@
-import type { TriangleMesh } from "../collision/mesh.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
 
 /**
  * Who borders on whom in a welded mesh. Half-edge 3 t + k runs from corner k of triangle t to its next corner with the

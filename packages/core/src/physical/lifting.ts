@@ -1,5 +1,5 @@
-import type { Robot } from "../robots/robot.ts";
-import type { Refusal } from "../ports.ts";
+import type { Robot } from "../model/robot.ts";
+import type { Refusal } from "../outcomes.ts";
 
 /** Masses agree below this [kg]: what a scale of this class tells apart. */
 const SCALE_KG = 1e-6;

@@ -1,4 +1,4 @@
-import type { Point2 } from "../shapes/polygon.ts";
+import type { Point2 } from "../mesh/polygon.ts";
 
 /** Someone who walks through the cell: along a line of points at a steady pace, then stands (row T-57). */
 export interface Person {

@@ -1,7 +1,7 @@
 import type { Payload } from "../dynamics/model.ts";
-import type { TriangleMesh } from "../collision/mesh.ts";
-import type { Robot } from "../robots/robot.ts";
-import type { Point2 } from "../shapes/polygon.ts";
+import type { TriangleMesh } from "../mesh/mesh.ts";
+import type { Robot } from "../model/robot.ts";
+import type { Point2 } from "../mesh/polygon.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { Person, PeopleZone } from "./people.ts";

@@ -1,5 +1,5 @@
 import type { SolidPair } from "../collision/cell-collider.ts";
-import { isSlide } from "../robots/slide.ts";
+import { isSlide } from "../model/slide.ts";
 import { findPath, lengthOf, type PathOptions, type PathOutcome } from "./find-path.ts";
 import { alongLine, distanceBetween, type PathValidator } from "./path-validator.ts";
 

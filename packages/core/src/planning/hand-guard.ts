@@ -1,7 +1,7 @@
 import type { Contact } from "../collision/cell.ts";
 import { robotAndCell, type CellCollider, type SolidPair } from "../collision/cell-collider.ts";
 import type { MotionVerdict } from "../collision/motion.ts";
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { alongLine, distanceBetween, PathValidator } from "./path-validator.ts";
 
 /**

@@ -2,7 +2,7 @@ import type { CellCollider, SolidPair } from "../collision/cell-collider.ts";
 import { ClearanceMaps } from "../collision/clearance-map.ts";
 import type { Contact } from "../collision/cell.ts";
 import { checkMotion, jointLine, marginOf, type MotionVerdict } from "../collision/motion.ts";
-import type { SerialArm } from "../robots/arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 
 export interface PathRules {
   /** Distance to keep [m], with the robot's shape error on top as `marginOf` says; 0 asks for no contact only. */

@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { compose, type Pose } from "../spatial/pose.ts";
-import { palletSlots } from "../paths/pallet.ts";
+import { palletSlots } from "./pallet.ts";
 import { LOOK_AGAIN_S, flow, unrolled } from "./flow.ts";
 import { emptyProgram, type MoveStep, type Program, type Step } from "./program.ts";
 import { SignalTable, holds } from "./signals.ts";

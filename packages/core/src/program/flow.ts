@@ -1,5 +1,5 @@
-import type { Signals } from "../ports.ts";
-import { palletCount, palletIndices, palletPitch, palletSlot } from "../paths/pallet.ts";
+import type { Signals } from "../signals.ts";
+import { palletCount, palletIndices, palletPitch, palletSlot } from "./pallet.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import type {
   Condition,
@@ -15,7 +15,7 @@ import type {
 import { SignalTable, holds } from "./signals.ts";
 
 /** A place of a pallet that is being visited; `number` counts from 1. */
-export interface PendantVisitor {
+export interface PlaceVisit {
   readonly pallet: string;
   readonly number: number;
   readonly of: number;
@@ -33,7 +33,7 @@ export type FlowEvent =
       readonly step: PrimitiveStep;
       readonly written: Step;
       readonly stands: boolean;
-      readonly visits: readonly PendantVisitor[];
+      readonly visits: readonly PlaceVisit[];
     }
   /** A comment, a call or a block is come to. */
   | { readonly kind: "passed"; readonly step: Step }
@@ -79,7 +79,7 @@ const passesOn = (step: MoveStep): boolean =>
 class Flow {
   private readonly program: Program;
   private readonly options: FlowOptions;
-  private visits: readonly PendantVisitor[] = [];
+  private visits: readonly PlaceVisit[] = [];
   private made = 0;
   private ended = false;
 

@@ -1,4 +1,4 @@
-import type { TextFault } from "../ports.ts";
+import type { TextFault } from "../outcomes.ts";
 
 /**
  * Where a text stops being JSON: line and column of the first character that cannot stand there, and what could.

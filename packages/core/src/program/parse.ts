@@ -2,10 +2,10 @@ import { robotById } from "../robots/library/index.ts";
 import { jsonFault } from "./json-place.ts";
 import { PROGRAM_FORMAT, PROGRAM_VERSION, type Program } from "./program.ts";
 import { readPallets } from "./read/pallets.ts";
-import { Reader, keys, type Fields } from "./read/reader.ts";
+import { Reader, keys, type Fields } from "../json/reader.ts";
 import { readSignals } from "./read/signals.ts";
 import { readSteps } from "./read/steps.ts";
-import type { NetworkEmulator } from "./read/surroundings.ts";
+import type { ProgramScope } from "./read/scope.ts";
 import { readGroups, readPoses } from "./read/tables.ts";
 import { callCycle } from "./walk.ts";
 
@@ -109,7 +109,7 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   const pallets = readPallets(reader, top.pallets, frames);
   const written =
     top.routines === undefined ? {} : (reader.object(top.routines, "routines", "the table of routines") ?? {});
-  const around: NetworkEmulator = {
+  const around: ProgramScope = {
     robot,
     joints: jointsOf(robot),
     tools,
@@ -141,7 +141,7 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   };
 }
 
-function readRoutines(reader: Reader, written: Fields, around: NetworkEmulator): Program["routines"] {
+function readRoutines(reader: Reader, written: Fields, around: ProgramScope): Program["routines"] {
   const routines = Object.fromEntries(
     Object.entries(written).map(([name, list]) => {
       if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");

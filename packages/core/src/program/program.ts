@@ -1,5 +1,5 @@
 import type { Branch } from "../kinematics/branch.ts";
-import type { Pallet } from "../paths/pallet.ts";
+import type { Pallet } from "./pallet.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 

@@ -1,4 +1,4 @@
-import type { Signals } from "../ports.ts";
+import type { Signals } from "../signals.ts";
 import type { SetStep } from "./program.ts";
 
 /** Outputs that go back by themselves, while the program goes on. */

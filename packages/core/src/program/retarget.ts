@@ -1,7 +1,7 @@
 import { flangePose } from "../kinematics/forward.ts";
 import { flangeOfTcp, nearestSolution, solverScratch } from "../kinematics/inverse.ts";
 import { isInsideWorkspace } from "../kinematics/workspace.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import type { MoveStep, Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";

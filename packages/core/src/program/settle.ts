@@ -1,4 +1,4 @@
-import { palletSlot } from "../paths/pallet.ts";
+import { palletSlot } from "./pallet.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import type { Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";

@@ -1,4 +1,4 @@
-import type { Signals } from "../ports.ts";
+import type { Signals } from "../signals.ts";
 import type { Condition } from "./program.ts";
 
 /**

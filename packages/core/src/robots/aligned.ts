@@ -2,7 +2,7 @@ import { linkPoses } from "../kinematics/forward.ts";
 import { compose, identity, pose, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import { subtract } from "../spatial/vector.ts";
-import type { Joint, SerialArm } from "./arm.ts";
+import type { Joint, SerialArm } from "../model/arm.ts";
 
 /**
  * The same arm with its link frames at the joints and, all angles 0, turned as the base: only the axes say which way a

@@ -3,7 +3,7 @@ import { seededRandom } from "../random.ts";
 import { compose, identity, pose, type Pose } from "../spatial/pose.ts";
 import { angleBetween, fromAxisAngle, fromMatrix, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { addScaled, cross, distance, dot, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 
 /** A joint axis in the base, all angles 0. */
 export interface Line {

@@ -3,7 +3,7 @@ import { compose, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { addScaled, cross, dot, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import {
   axesAtZero,
   clean,
@@ -17,7 +17,7 @@ import {
   upward,
   type Turned,
 } from "./axes.ts";
-import type { GeneralSixGeometry } from "./robot.ts";
+import type { GeneralSixGeometry } from "../model/robot.ts";
 
 const ROUNDING = 1e-7;
 /** The formula must meet the arm at every tried posture this closely [m, rad]. */

@@ -2,9 +2,9 @@ import { flangePose } from "../kinematics/forward.ts";
 import { compose, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { distance, dot, scale, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { axesAtZero, deviation, distanceFrom, footOn, frameOf, passing, product, upward, type Turned } from "./axes.ts";
-import type { SphericalSevenGeometry } from "./robot.ts";
+import type { SphericalSevenGeometry } from "../model/robot.ts";
 
 const ROUNDING = 1e-7;
 /** Robot files give some arms offsets of a few tenths of a millimetre where the drawing has none. */

@@ -3,7 +3,7 @@ import { compose, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { dot, scale, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import {
   axesAtZero,
   clean,
@@ -17,7 +17,7 @@ import {
   upward,
   type Turned,
 } from "./axes.ts";
-import type { ThreeParallelGeometry } from "./robot.ts";
+import type { ThreeParallelGeometry } from "../model/robot.ts";
 
 /**
  * Right angles written with ten digits, as robot files have them, are right angles. What is left over, refinement takes

@@ -3,9 +3,9 @@ import { compose, identity, inverse, pose, type Pose } from "../spatial/pose.ts"
 import { angleBetween, fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { addScaled, cross, dot, norm, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { axesAtZero, clean, deviation, distanceFrom, product, type Line, type Turned } from "./axes.ts";
-import type { OrthoParallelGeometry } from "./robot.ts";
+import type { OrthoParallelGeometry } from "../model/robot.ts";
 
 /**
  * Lengths below this are taken for 0, directions this close for the same: rounding of dimensions as files give them.

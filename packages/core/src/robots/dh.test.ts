@@ -6,7 +6,7 @@ import { compose, pose, type Pose } from "../spatial/pose.ts";
 import { angleBetween, fromAxisAngle, fromMatrix, normalizeQuaternion } from "../spatial/quaternion.ts";
 import { degrees } from "../spatial/units.ts";
 import { distance, normalize } from "../spatial/vector.ts";
-import type { Joint, SerialArm } from "./arm.ts";
+import type { Joint, SerialArm } from "../model/arm.ts";
 import { armFromDh, dhFromArm, type DhConvention, type DhTable } from "./dh.ts";
 import { LIBRARY, robotById } from "./library/index.ts";
 

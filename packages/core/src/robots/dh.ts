@@ -3,8 +3,8 @@ import { compose, identity, inverse, pose, type Pose } from "../spatial/pose.ts"
 import { fromAxisAngle, fromMatrix, rotate } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { addScaled, cross, dot, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
-import type { Joint, JointLimits, SerialArm } from "./arm.ts";
-import { isSlide } from "./slide.ts";
+import type { Joint, JointLimits, SerialArm } from "../model/arm.ts";
+import { isSlide } from "../model/slide.ts";
 
 /**
  * Whose Denavit–Hartenberg parameters:

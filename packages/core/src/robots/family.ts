@@ -1,10 +1,10 @@
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { generalSixFromArm } from "./derive-general-six.ts";
 import { sphericalSevenFromArm } from "./derive-spherical-seven.ts";
-import { isSlide } from "./slide.ts";
+import { isSlide } from "../model/slide.ts";
 import { threeParallelFromArm } from "./derive-three-parallel.ts";
 import { orthoParallelFromArm } from "./derive.ts";
-import type { KinematicFamily } from "./robot.ts";
+import type { KinematicFamily } from "../model/robot.ts";
 
 /**
  * How the inverse of any arm is solved, read off its axes: the first of ortho-parallel, three-parallel, spherical-seven

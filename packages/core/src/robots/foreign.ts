@@ -1,9 +1,9 @@
 import { pose } from "../spatial/pose.ts";
 import { norm } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { SerialArm } from "../model/arm.ts";
 import { familyOf } from "./family.ts";
-import { slideOf } from "./slide.ts";
-import type { KinematicFamily, Robot } from "./robot.ts";
+import { slideOf } from "../model/slide.ts";
+import type { KinematicFamily, Robot } from "../model/robot.ts";
 
 /** Speed of the tool tip at full speed where nobody says it [m/s]. */
 const ASSUMED_TCP_SPEED_MPS = 2;

@@ -1,8 +1,3 @@
-export * from "./arm.ts";
-export * from "./slide.ts";
-export * from "./stand.ts";
-export * from "./jerk.ts";
-export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./derive-three-parallel.ts";
 export * from "./derive-spherical-seven.ts";
@@ -15,3 +10,4 @@ export * from "./aligned.ts";
 export * from "./library/index.ts";
 export * from "./catalogue/index.ts";
 export * from "./shapes/index.ts";
+export * from "./identity.ts";

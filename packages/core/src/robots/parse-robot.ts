@@ -1,10 +1,10 @@
 import { pose, type Pose } from "../spatial/pose.ts";
 import { fromEulerAngles } from "../spatial/turns.ts";
 import { norm, scale, type Vector3 } from "../spatial/vector.ts";
-import { Reader, type Fields } from "../program/read/reader.ts";
-import type { Joint } from "./arm.ts";
+import { Reader, type Fields } from "../json/reader.ts";
+import type { Joint } from "../model/arm.ts";
 import { robotFromArm, type KnownOfRobot } from "./foreign.ts";
-import type { Robot } from "./robot.ts";
+import type { Robot } from "../model/robot.ts";
 
 /** A robot file that was read, or every fault in it with its place. */
 /** What a robot file says of itself. */

@@ -9,7 +9,7 @@ import {
   type DampedScratch,
 } from "../kinematics/numeric/damped.ts";
 import { lengthAt, poseError } from "../kinematics/numeric/pose-error.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { speedLoad, type JogCell } from "./jog-cell.ts";
 

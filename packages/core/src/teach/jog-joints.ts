@@ -1,8 +1,8 @@
 import { explainReach } from "../kinematics/explain.ts";
 import { branchOf } from "../kinematics/branch.ts";
 import type { Reach } from "../kinematics/reach.ts";
-import { isSlide } from "../robots/slide.ts";
-import type { Robot } from "../robots/robot.ts";
+import { isSlide } from "../model/slide.ts";
+import type { Robot } from "../model/robot.ts";
 import type { Jogged, JogBlock } from "./jogged.ts";
 
 /**

@@ -5,7 +5,7 @@ import { solveOrthoParallel } from "../kinematics/ortho-parallel.ts";
 import type { Reach } from "../kinematics/reach.ts";
 import { singularDistances } from "../kinematics/singularity.ts";
 import { wristCentre } from "../kinematics/span.ts";
-import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
+import type { OrthoParallelGeometry, Robot } from "../model/robot.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { jointOutside, MIN_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 

@@ -4,7 +4,7 @@ import { outOfReach } from "../kinematics/out-of-reach.ts";
 import type { Reach } from "../kinematics/reach.ts";
 import { refine } from "../kinematics/refine.ts";
 import { solveThreeParallel } from "../kinematics/three-parallel.ts";
-import type { Robot, ThreeParallelGeometry } from "../robots/robot.ts";
+import type { Robot, ThreeParallelGeometry } from "../model/robot.ts";
 import { jointOutside, MIN_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 
 /**

@@ -1,6 +1,6 @@
 import { armScratch, flangePose } from "../kinematics/forward.ts";
 import { nearestSolution, solverScratch } from "../kinematics/inverse.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { slerp } from "../spatial/quaternion.ts";
 import { addScaled, distance, dot, lerp, subtract, type Vector3 } from "../spatial/vector.ts";

@@ -1,6 +1,6 @@
 import { linkPoses, armScratch, type ArmScratch } from "../kinematics/forward.ts";
-import type { SerialArm } from "../robots/arm.ts";
-import { isSlide } from "../robots/slide.ts";
+import type { SerialArm } from "../model/arm.ts";
+import { isSlide } from "../model/slide.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";

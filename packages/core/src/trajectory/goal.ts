@@ -9,7 +9,7 @@ import {
 import { flangePose } from "../kinematics/forward.ts";
 import { branchOf, sameBranch } from "../kinematics/branch.ts";
 import type { Reach } from "../kinematics/reach.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Follower } from "./follow.ts";

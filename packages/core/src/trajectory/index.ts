@@ -15,3 +15,6 @@ export * from "./judge.ts";
 export * from "./deviation.ts";
 export * from "./jerk/index.ts";
 export * from "./continuity/index.ts";
+export * from "./stepper.ts";
+export * from "./with-branches.ts";
+export * from "./torque/index.ts";

@@ -1,7 +1,7 @@
 import { flangePose } from "../kinematics/forward.ts";
-import type { JointLimits } from "../robots/arm.ts";
-import { jerkOf } from "../robots/jerk.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { JointLimits } from "../model/arm.ts";
+import { jerkOf } from "../model/jerk.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose } from "../spatial/pose.ts";
 import { distance } from "../spatial/vector.ts";
 import { sCurve, type RestProfile } from "./laws.ts";

@@ -1,4 +1,4 @@
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import type { Plan } from "./plan.ts";
 import { sampleSegment } from "./sample.ts";
 

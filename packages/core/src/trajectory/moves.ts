@@ -1,7 +1,7 @@
 import { flangePose } from "../kinematics/forward.ts";
 import type { Branch } from "../kinematics/branch.ts";
 import type { MoveStep, Program, Target } from "../program/program.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 
 /** What targets of steps refer to. */

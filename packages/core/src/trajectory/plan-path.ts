@@ -1,6 +1,6 @@
 import { armScratch, flangePose } from "../kinematics/forward.ts";
-import type { Robot } from "../robots/robot.ts";
-import { isSlide } from "../robots/slide.ts";
+import type { Robot } from "../model/robot.ts";
+import { isSlide } from "../model/slide.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { radians } from "../spatial/units.ts";
 import type { Plan } from "./plan.ts";

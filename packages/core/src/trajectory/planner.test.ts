@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { flangePose } from "../kinematics/forward.ts";
 import { seededRandom } from "../random.ts";
-import { jerkOf } from "../robots/jerk.ts";
+import { jerkOf } from "../model/jerk.ts";
 import { robotById } from "../robots/library/index.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import { angleBetween, fromAxisAngle, multiply, slerp, type Quaternion } from "../spatial/quaternion.ts";

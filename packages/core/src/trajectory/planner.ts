@@ -1,16 +1,16 @@
 import { flow, type FlowEvent } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
-import { motionAssumptions } from "../robots/jerk.ts";
+import { motionAssumptions } from "../model/jerk.ts";
 import type { Payload } from "../dynamics/model.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { chooseBranches, withChoice } from "./continuity/index.ts";
 import { passes, resolveMove, type Move } from "./moves.ts";
 import type { MotionSegment, Plan, Segment, SignalWrite } from "./plan.ts";
 import type { Slowed } from "./run-timing.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
-import { Gentler, type Gentled } from "../torque/gentle.ts";
+import { Gentler, type Gentled } from "./torque/gentle.ts";
 import { explainStop, type Stuck } from "./stop.ts";
 
 export interface PlanOptions {

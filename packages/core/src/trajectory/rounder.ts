@@ -1,5 +1,5 @@
-import { jerkOf } from "../robots/jerk.ts";
-import type { Robot } from "../robots/robot.ts";
+import { jerkOf } from "../model/jerk.ts";
+import type { Robot } from "../model/robot.ts";
 import { RoundedLaw } from "./rounded-law.ts";
 import type { TimingGrid } from "./timing.ts";
 

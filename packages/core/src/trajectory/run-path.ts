@@ -1,5 +1,5 @@
 import { armScratch, flangePose } from "../kinematics/forward.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { distance, type Vector3 } from "../spatial/vector.ts";
 import { Follower } from "./follow.ts";

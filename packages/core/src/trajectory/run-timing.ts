@@ -1,4 +1,4 @@
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import type { MoveStep, Speed } from "../program/program.ts";
 import { Emission } from "./emission.ts";
 import type { HermitePath, Piece } from "./hermite-path.ts";

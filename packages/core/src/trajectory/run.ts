@@ -1,5 +1,5 @@
 import { flangePose } from "../kinematics/forward.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { compose } from "../spatial/pose.ts";
 import { distance } from "../spatial/vector.ts";
 import { GoalFinder } from "./goal.ts";

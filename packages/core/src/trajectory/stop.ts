@@ -1,7 +1,7 @@
 import { explainReach } from "../kinematics/explain.ts";
 import type { Reach } from "../kinematics/reach.ts";
-import type { Robot } from "../robots/robot.ts";
-import { jointText, movesTo } from "../robots/slide.ts";
+import type { Robot } from "../model/robot.ts";
+import { jointText, movesTo } from "../model/slide.ts";
 import { millimetres } from "../spatial/units.ts";
 import type { Move } from "./moves.ts";
 import type { RunStop } from "./run-path.ts";

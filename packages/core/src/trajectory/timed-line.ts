@@ -1,7 +1,7 @@
 import { solveAll, solverScratch, type SolverScratch } from "../kinematics/inverse.ts";
 import { explainReach } from "../kinematics/explain.ts";
 import type { Reach } from "../kinematics/reach.ts";
-import type { Robot } from "../robots/robot.ts";
+import type { Robot } from "../model/robot.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { fromEulerAngles, toEulerAngles, type EulerSequence } from "../spatial/turns.ts";
 import { degrees, wrapAngle } from "../spatial/units.ts";

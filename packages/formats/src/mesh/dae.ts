@@ -79,9 +79,9 @@ export function daeParts(bytes: Uint8Array, up: DaeUp): DaeParts {
 const MOST_CORNERS_OF_ALL = 60_000_000;
 
 type ColorOf = (symbol: string) => readonly [number, number, number] | undefined;
-type PendantVisitor = (geometry: DaeGeometry, matrix: Matrix4, path: readonly string[], colorOf: ColorOf) => void;
+type GeometryVisitor = (geometry: DaeGeometry, matrix: Matrix4, path: readonly string[], colorOf: ColorOf) => void;
 
-function visitDae(bytes: Uint8Array, wanted: DaeUp, visit: PendantVisitor): Omit<DaeParts, "parts"> {
+function visitDae(bytes: Uint8Array, wanted: DaeUp, visit: GeometryVisitor): Omit<DaeParts, "parts"> {
   if (bytes.length > LARGEST_FILE)
     throw new Refusal(`The file has ${bytes.length} bytes; at most ${LARGEST_FILE} are read.`);
   const root = parseXml(utf8(bytes), undefined, BOUNDS);
@@ -102,13 +102,13 @@ function visitDae(bytes: Uint8Array, wanted: DaeUp, visit: PendantVisitor): Omit
 class Scene {
   readonly skipped = new Map<string, number>();
   private readonly root: Element;
-  private readonly visit: PendantVisitor;
+  private readonly visit: GeometryVisitor;
   private readonly colors: ReturnType<typeof daeColors>;
   private readonly geometries: readonly Element[];
   private readonly nodes: readonly Element[];
   private readonly read = new Map<Element, DaeGeometry>();
   private visits = 0;
-  constructor(root: Element, visit: PendantVisitor) {
+  constructor(root: Element, visit: GeometryVisitor) {
     this.root = root;
     this.visit = visit;
     this.colors = daeColors(root);

@@ -20,8 +20,8 @@ export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader =
   notExecuted: ({ kept }) => kept,
   script: (source, robot, worldFromBase) => ({
     title: source.title,
-    machine: (emulator, signals) => new Machine(source, robot, worldFromBase, emulator, signals, false),
-    writer: emulator => new Machine(source, robot, worldFromBase, emulator, undefined, true),
+    machine: (declared, signals) => new Machine(source, robot, worldFromBase, declared, signals, false),
+    writer: declared => new Machine(source, robot, worldFromBase, declared, undefined, true),
     run: machine => machine.main(),
     block: machine => machine.open(),
     unrolled: source.hasJumps ? executed : undefined,

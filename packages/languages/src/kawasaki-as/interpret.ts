@@ -14,7 +14,7 @@ export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockEntr
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(
       source,
-      (emulator, signals) => new Machine(source, constants, robot, worldFromBase, emulator, signals),
+      (declared, signals) => new Machine(source, constants, robot, worldFromBase, declared, signals),
     );
   },
 });

@@ -8,5 +8,5 @@ export * from "./line-cursor.ts";
 export * from "./jumps.ts";
 export * from "./skip.ts";
 export * from "./naming.ts";
-export * from "./surroundings.ts";
+export * from "./declared-cell.ts";
 export * from "./unrolled.ts";

@@ -17,7 +17,7 @@ export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blo
     const changing = changedNames([...source.routines.values()].map(({ body }) => body));
     return routineScript(
       source.title,
-      (emulator, signals) => new Machine(source, changing, robot, worldFromBase, emulator, signals),
+      (declared, signals) => new Machine(source, changing, robot, worldFromBase, declared, signals),
     );
   },
 });

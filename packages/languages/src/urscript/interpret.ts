@@ -15,7 +15,7 @@ export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(
       source,
-      (emulator, signals) => new Machine(source, constants, robot, worldFromBase, emulator, signals),
+      (declared, signals) => new Machine(source, constants, robot, worldFromBase, declared, signals),
     );
   },
 });

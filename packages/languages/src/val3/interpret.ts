@@ -12,7 +12,7 @@ export const { interpret: interpretVal3, parse: parseVal3 }: BlockReader = block
     const changing = changedNames([...application.routines.values()].map(({ body }) => body));
     return routineScript(
       application.title,
-      (emulator, signals) => new Machine(application, changing, robot, worldFromBase, emulator, signals),
+      (declared, signals) => new Machine(application, changing, robot, worldFromBase, declared, signals),
     );
   },
 });

@@ -8,13 +8,13 @@ export const BYTES = 2;
 export const FLOAT = 5;
 
 /** A value met while reading: of a varint its number, of a double its number, of bytes where they are. */
-export type PendantVisitor = (field: number, kind: number, value: number, from: number, to: number) => void;
+export type FieldVisitor = (field: number, kind: number, value: number, from: number, to: number) => void;
 
 /**
  * Calls `visit` for each field from `from` to `to`; false when the bytes end in the middle of one or have a kind that
  * nobody uses.
  */
-export function readFields(bytes: Uint8Array, from: number, to: number, visit: PendantVisitor): boolean {
+export function readFields(bytes: Uint8Array, from: number, to: number, visit: FieldVisitor): boolean {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = from;
   const varint = (): number => {

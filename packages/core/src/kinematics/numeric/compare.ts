@@ -1,4 +1,4 @@
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { degrees } from "../../spatial/units.ts";
 import { explainReach } from "../explain.ts";

@@ -1,7 +1,7 @@
 import { JointCountFault } from "../../fault.ts";
 import type { Random } from "../../random.ts";
-import type { SerialArm } from "../../robots/arm.ts";
-import { isSlide, jointText } from "../../robots/slide.ts";
+import type { SerialArm } from "../../model/arm.ts";
+import { isSlide, jointText } from "../../model/slide.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { degrees } from "../../spatial/units.ts";
 import { dampedScratch, type DampedScratch } from "./damped-scratch.ts";

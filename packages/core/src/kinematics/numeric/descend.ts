@@ -1,4 +1,4 @@
-import type { SerialArm } from "../../robots/arm.ts";
+import type { SerialArm } from "../../model/arm.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { flangePose } from "../forward.ts";
 import { jacobian } from "../jacobian.ts";

@@ -1,6 +1,6 @@
 import { JointCountFault } from "../../fault.ts";
-import type { SerialArm } from "../../robots/arm.ts";
-import { isSlide } from "../../robots/slide.ts";
+import type { SerialArm } from "../../model/arm.ts";
+import { isSlide } from "../../model/slide.ts";
 import { compose, identity, inverse, type Pose } from "../../spatial/pose.ts";
 import { armScratch, chainOf, walk } from "../chain.ts";
 import { flangePose } from "../forward.ts";

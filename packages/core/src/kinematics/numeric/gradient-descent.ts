@@ -1,5 +1,5 @@
 import { JointCountFault } from "../../fault.ts";
-import type { SerialArm } from "../../robots/arm.ts";
+import type { SerialArm } from "../../model/arm.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { distance } from "../../spatial/vector.ts";
 import { armScratch, flangePose } from "../forward.ts";

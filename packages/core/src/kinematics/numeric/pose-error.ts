@@ -1,5 +1,5 @@
-import type { SerialArm } from "../../robots/arm.ts";
-import { slideOf } from "../../robots/slide.ts";
+import type { SerialArm } from "../../model/arm.ts";
+import { slideOf } from "../../model/slide.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { norm } from "../../spatial/vector.ts";
 

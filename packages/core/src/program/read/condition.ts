@@ -1,5 +1,5 @@
 import type { Condition } from "../program.ts";
-import type { Reader } from "./reader.ts";
+import type { Reader } from "../../json/reader.ts";
 
 /**
  * A signal and what it is compared with. That the signal exists is for the checker to say: it can be connected later.

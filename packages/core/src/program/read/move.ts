@@ -1,8 +1,8 @@
 import type { Branch } from "../../kinematics/branch.ts";
 import type { MoveStep, Search, Speed, Target } from "../program.ts";
 import { readCondition } from "./condition.ts";
-import { keys, type Fields, type Reader } from "./reader.ts";
-import type { NetworkEmulator } from "./surroundings.ts";
+import { keys, type Fields, type Reader } from "../../json/reader.ts";
+import type { ProgramScope } from "./scope.ts";
 
 const PATHS = ["ptp", "lin", "circ", "spline"] as const;
 
@@ -12,7 +12,7 @@ export function readMove(
   fields: Fields,
   path: string,
   what: string,
-  around: NetworkEmulator,
+  around: ProgramScope,
 ): Omit<MoveStep, "id" | "name" | "group"> | undefined {
   reader.onlyKeys(
     fields,
@@ -126,7 +126,7 @@ function readTarget(
   value: unknown,
   path: string,
   what: string,
-  around: NetworkEmulator,
+  around: ProgramScope,
 ): Target | undefined {
   const fields = reader.object(value, path, what);
   if (fields === undefined) return undefined;
@@ -152,7 +152,7 @@ function readTarget(
 }
 
 /** A frame of the program, or the place being visited when the target stands inside that pallet's step. */
-function readFrame(reader: Reader, value: unknown, path: string, what: string, around: NetworkEmulator): string {
+function readFrame(reader: Reader, value: unknown, path: string, what: string, around: ProgramScope): string {
   if (typeof value !== "string" || !Object.hasOwn(around.pallets, value))
     return known(reader, value, path, what, "frame", around.frames, "world");
   if (!around.open.includes(value))
@@ -168,7 +168,7 @@ function readJoints(
   value: unknown,
   path: string,
   what: string,
-  around: NetworkEmulator,
+  around: ProgramScope,
 ): number[] | undefined {
   const q = reader.numbers(value, path, `the list of joint angles of ${what}`, "rad", undefined);
   if (q === undefined) return undefined;

@@ -1,6 +1,6 @@
-import { PALLET_ORDERS, PALLET_PATTERNS, type Pallet } from "../../paths/pallet.ts";
+import { PALLET_ORDERS, PALLET_PATTERNS, type Pallet } from "../pallet.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
-import { keys, type Fields, type Reader } from "./reader.ts";
+import { keys, type Fields, type Reader } from "../../json/reader.ts";
 
 /** A pattern with more places than this is a mistake. */
 const MOST_PLACES = 100_000;

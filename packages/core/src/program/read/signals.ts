@@ -1,5 +1,5 @@
 import type { SignalLine } from "../program.ts";
-import { keys, type Reader } from "./reader.ts";
+import { keys, type Reader } from "../../json/reader.ts";
 
 const KINDS = ["digital-in", "digital-out", "analogue-in", "analogue-out"] as const;
 

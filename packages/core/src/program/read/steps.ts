@@ -14,8 +14,8 @@ import {
 } from "../program.ts";
 import { readCondition } from "./condition.ts";
 import { readMove } from "./move.ts";
-import { keys, type Fields, type Reader } from "./reader.ts";
-import type { NetworkEmulator } from "./surroundings.ts";
+import { keys, type Fields, type Reader } from "../../json/reader.ts";
+import type { ProgramScope } from "./scope.ts";
 
 const BASE = ["id", "type", "name", "group"] as const;
 /** Blocks inside blocks deeper than this help nobody, and would overflow the stack of whoever walks them. */
@@ -30,7 +30,7 @@ type BodyReader = (
   fields: Fields,
   path: string,
   what: string,
-  around: NetworkEmulator,
+  around: ProgramScope,
 ) => Body<Step> | undefined;
 
 /** A list of steps, with all that is inside them. */
@@ -39,7 +39,7 @@ export function readSteps(
   value: unknown,
   path: string,
   what: string,
-  around: NetworkEmulator,
+  around: ProgramScope,
 ): readonly Step[] {
   const list = reader.list(value, path, what);
   const steps: Step[] = [];
@@ -55,13 +55,7 @@ export function readSteps(
   return steps;
 }
 
-function readStep(
-  reader: Reader,
-  value: unknown,
-  path: string,
-  index: number,
-  around: NetworkEmulator,
-): Step | undefined {
+function readStep(reader: Reader, value: unknown, path: string, index: number, around: ProgramScope): Step | undefined {
   const { seen, depth } = around;
   const fields = reader.object(value, path, depth === 0 ? `step ${index + 1}` : `step ${index + 1} of its block`);
   if (fields === undefined) return undefined;
@@ -104,7 +98,7 @@ function optionalText<K extends "name" | "group">(
   return found;
 }
 
-const inside = (around: NetworkEmulator, open: readonly string[] = around.open): NetworkEmulator => ({
+const inside = (around: ProgramScope, open: readonly string[] = around.open): ProgramScope => ({
   ...around,
   open,
   depth: around.depth + 1,

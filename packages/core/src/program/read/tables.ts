@@ -1,6 +1,6 @@
 import type { Pose } from "../../spatial/pose.ts";
 import type { Group } from "../program.ts";
-import { isFields, type Reader } from "./reader.ts";
+import { isFields, type Reader } from "../../json/reader.ts";
 
 /** Named poses. Frame "world" and tool "flange" always exist; an entry of that name must not move them. */
 export function readPoses<Into extends string, From extends string>(

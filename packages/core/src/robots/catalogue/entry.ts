@@ -1,10 +1,10 @@
 import { pose, type Pose } from "../../spatial/pose.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
-import type { Joint, SerialArm } from "../arm.ts";
+import type { Joint, SerialArm } from "../../model/arm.ts";
 import { robotFromArm } from "../foreign.ts";
 import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint, turned } from "../library/write.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { homeOf } from "./home.ts";
 import { REPOSITORIES } from "./repositories.ts";
 

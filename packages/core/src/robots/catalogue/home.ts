@@ -1,7 +1,7 @@
 import { flangePose } from "../../kinematics/forward.ts";
 import { rotate } from "../../spatial/quaternion.ts";
-import type { SerialArm } from "../arm.ts";
-import type { KinematicFamily } from "../robot.ts";
+import type { SerialArm } from "../../model/arm.ts";
+import type { KinematicFamily } from "../../model/robot.ts";
 
 const HALF = Math.PI / 2;
 const TURN = 2 * Math.PI;

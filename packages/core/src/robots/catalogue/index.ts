@@ -1,4 +1,4 @@
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { robotOfEntry, type CatalogueEntry, type CatalogueMaker } from "./entry.ts";
 
 export type { CatalogueEntry, CatalogueMaker } from "./entry.ts";

@@ -1,7 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
-import type { SerialArm } from "../arm.ts";
+import type { SerialArm } from "../../model/arm.ts";
 import { familyOf } from "../family.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/abb_crb15000_5_95.ts";
 import {
   ACCELERATIONS_ASSUMED,

@@ -1,5 +1,5 @@
 import { pose } from "../../spatial/pose.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,

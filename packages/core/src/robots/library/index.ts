@@ -1,5 +1,5 @@
 import { catalogueRobot } from "../catalogue/index.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { abbCrb15000 } from "./abb-crb15000.ts";
 import { abbIrb120 } from "./abb-irb120.ts";
 import { densoVs060 } from "./denso-vs060.ts";

@@ -1,5 +1,5 @@
 import { pose } from "../../spatial/pose.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/kuka_kr6r900sixx.ts";
 import {
   ACCELERATIONS_ASSUMED,

@@ -1,7 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
-import type { SerialArm } from "../arm.ts";
+import type { SerialArm } from "../../model/arm.ts";
 import { familyOf } from "../family.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/kuka_lbr_iiwa_14_r820.ts";
 import {
   ACCELERATIONS_ASSUMED,

@@ -1,5 +1,5 @@
 import { pose } from "../../spatial/pose.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint } from "./write.ts";
 
 /** Joint zero is V+'s own: home 0, −90, +90, 0, 0, 0 stands straight up. */

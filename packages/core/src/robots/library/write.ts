@@ -2,10 +2,9 @@ import { pose, type Pose } from "../../spatial/pose.ts";
 import { fromEulerAngles } from "../../spatial/turns.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
-import type { Joint, JointDrive, JointLimits, LinkMass } from "../arm.ts";
-import type { OrthoParallelGeometry } from "../robot.ts";
-import type { FormLoft, RobotForm } from "../shapes/form.ts";
-import type { PartMaterial } from "../shapes/link-shape.ts";
+import type { Joint, JointDrive, JointLimits, LinkMass } from "../../model/arm.ts";
+import type { OrthoParallelGeometry } from "../../model/robot.ts";
+import type { FormLoft, PartMaterial, RobotForm } from "../../model/form.ts";
 
 // What the data files of the library are written with, so that a file reads like its data sheet.
 

@@ -1,4 +1,4 @@
-import type { OrthoParallelGeometry } from "../robot.ts";
+import type { OrthoParallelGeometry } from "../../model/robot.ts";
 import { base, shoulder, upperArm } from "./articulated-lower.ts";
 import { elbow, flange, forearm, knuckle } from "./articulated-upper.ts";
 import type { LinkDesign } from "./link-shape.ts";

@@ -1,7 +1,8 @@
-import type { TriangleMesh } from "../../collision/mesh.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
 import { backwards, bolts, farSide, loft, merge, prism, revolve, sideways, upright, type Frame } from "./loft.ts";
-import type { LinkDesign, LinkPart, PartMaterial } from "./link-shape.ts";
+import type { PartMaterial } from "../../model/form.ts";
+import type { LinkDesign, LinkPart } from "./link-shape.ts";
 import { circle, filleted, roundedRectangle, stadium, type Point2 } from "./outline.ts";
 import { shell, sized, type Standing } from "./standing.ts";
 

@@ -1,7 +1,5 @@
-import type { TriangleMesh } from "../../collision/mesh.ts";
-
-/** What a part is made of. "mark" is what shows a turn of a symmetrical link (row L-62). */
-export type PartMaterial = "casting" | "dark" | "cover" | "metal" | "mark";
+import type { PartMaterial } from "../../model/form.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
 
 /** One drawn part of a link. */
 export interface LinkPart {

@@ -1,4 +1,4 @@
-import type { TriangleMesh } from "../../collision/mesh.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
 import { inverse, transformPoint, type Pose } from "../../spatial/pose.ts";
 import { cross, type Vector3 } from "../../spatial/vector.ts";
 import { circle, type Outline, type Point2 } from "./outline.ts";

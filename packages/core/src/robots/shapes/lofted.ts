@@ -1,7 +1,7 @@
-import type { TriangleMesh } from "../../collision/mesh.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
 import { addScaled, cross, type Vector3 } from "../../spatial/vector.ts";
-import type { FormLoft, FormRing } from "./form.ts";
-import type { LinkDesign, LinkPart, PartMaterial } from "./link-shape.ts";
+import type { FormLoft, FormRing, PartMaterial } from "../../model/form.ts";
+import type { LinkDesign, LinkPart } from "./link-shape.ts";
 import { bolts, loft, type Frame, type Ring } from "./loft.ts";
 import type { Point2 } from "./outline.ts";
 

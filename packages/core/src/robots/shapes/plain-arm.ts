@@ -2,7 +2,7 @@ import { linkPoses } from "../../kinematics/forward.ts";
 import { compose, identity, transformPoint, type Pose } from "../../spatial/pose.ts";
 import { cross, distance, normalize, subtract, type Vector3 } from "../../spatial/vector.ts";
 import { rotate } from "../../spatial/quaternion.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { merge, prism, type Frame } from "./loft.ts";
 import type { LinkDesign } from "./link-shape.ts";
 import { circle, filleted } from "./outline.ts";

@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import type { TriangleMesh } from "../../collision/mesh.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
 import { linkPoses } from "../../kinematics/forward.ts";
 import { identity, transformPoint } from "../../spatial/pose.ts";
 import type { Vector3 } from "../../spatial/vector.ts";

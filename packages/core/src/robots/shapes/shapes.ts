@@ -1,7 +1,7 @@
-import type { LinkSolid } from "../../collision/cell.ts";
+import type { LinkSolid } from "../../mesh/link-solid.ts";
 import { linkPoses } from "../../kinematics/forward.ts";
 import { identity } from "../../spatial/pose.ts";
-import type { Robot } from "../robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { articulatedArm } from "./articulated-arm.ts";
 import { intoLink, merge } from "./loft.ts";
 import type { LinkDesign, LinkShape } from "./link-shape.ts";

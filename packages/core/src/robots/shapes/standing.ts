@@ -1,5 +1,5 @@
-import type { TriangleMesh } from "../../collision/mesh.ts";
-import type { OrthoParallelGeometry } from "../robot.ts";
+import type { TriangleMesh } from "../../mesh/mesh.ts";
+import type { OrthoParallelGeometry } from "../../model/robot.ts";
 import { prism, type Frame } from "./loft.ts";
 import type { Outline, Point2 } from "./outline.ts";
 

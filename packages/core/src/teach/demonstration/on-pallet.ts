@@ -1,4 +1,4 @@
-import { palletCount, type Pallet } from "../../paths/pallet.ts";
+import { palletCount, type Pallet } from "../../program/pallet.ts";
 import { distance } from "../../spatial/vector.ts";
 import { compose, inverse, type Pose } from "../../spatial/pose.ts";
 import { freshStepId } from "../../program/edit.ts";

@@ -1,4 +1,4 @@
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import type { Move } from "../moves.ts";
 import { ContinuitySolver, type Break, type Continuity, type Flip } from "./continuity.ts";
 

@@ -3,9 +3,9 @@ import { allBranches, branchOf, flangePose, sameBranch } from "../../kinematics/
 import { turns, revolutionsInside } from "../../kinematics/turns.ts";
 import { emptyProgram, type MoveStep } from "../../program/program.ts";
 import { seededRandom } from "../../random.ts";
-import type { Joint } from "../../robots/arm.ts";
+import type { Joint } from "../../model/arm.ts";
 import { robotById } from "../../robots/library/index.ts";
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { identity, type Pose } from "../../spatial/pose.ts";
 import { judgePlan } from "../judge.ts";
 import { resolveMove, type Move } from "../moves.ts";

@@ -2,7 +2,7 @@ import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
 import { armScratch, flangePose } from "../../kinematics/forward.ts";
 import type { Reach } from "../../kinematics/reach.ts";
 import { turns } from "../../kinematics/turns.ts";
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { identity, type Pose } from "../../spatial/pose.ts";
 import { radians, wrapAngle } from "../../spatial/units.ts";
 import { Follower } from "../follow.ts";

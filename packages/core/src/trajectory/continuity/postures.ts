@@ -3,7 +3,7 @@ import { allBranches, solveAll, solverScratch } from "../../kinematics/inverse.t
 import { isSingularConfiguration } from "../../kinematics/singularity.ts";
 import { revolutionsInside } from "../../kinematics/turns.ts";
 import { isInsideWorkspace } from "../../kinematics/workspace.ts";
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { NO_CODE } from "./pool.ts";
 

@@ -1,7 +1,7 @@
 import { allBranches, solverScratch } from "../../kinematics/inverse.ts";
 import { nearestSingularity } from "../../kinematics/singularity.ts";
 import { LIMIT_SLACK_RAD } from "../../kinematics/turns.ts";
-import type { Robot } from "../../robots/robot.ts";
+import type { Robot } from "../../model/robot.ts";
 import { compose, identity, type Pose } from "../../spatial/pose.ts";
 import { Follower } from "../follow.ts";
 import { geometryScratch, posePoint, type PosePath } from "../geometry.ts";

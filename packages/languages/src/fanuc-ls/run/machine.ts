@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -65,7 +65,7 @@ interface Difference {
 /** Executes TP statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   /** Registers that hold how far the place of a pallet is off, while the pallet is read as one. */
   readonly places = new Set<string>();
   /** Frames and tools that were used and are set up nowhere in the text. */
@@ -96,14 +96,14 @@ export class Machine extends BlockMachine<Value> {
     source: Source,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    emulator: NetworkEmulator,
+    declared: DeclaredCell,
     signals: Signals | undefined,
     writesDown: boolean,
   ) {
     super(source.routines);
     this.source = source;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = emulator;
+    this.declared = declared;
     this.signals = signals;
     this.writesDown = writesDown;
   }
@@ -290,7 +290,7 @@ export class Machine extends BlockMachine<Value> {
       throw new TextError(at, "the number of a line", `There is no line ${word.toUpperCase()}[${number}].`);
     const key = `${word}${number}`;
     const kind = KINDS[word]!;
-    const { signals } = this.surroundings;
+    const { signals } = this.declared;
     const numbered = NUMBERED.has(word);
     const known = numbered
       ? Object.entries(signals).find(([, line]) => line.kind === kind && line.address === number)?.[0]
@@ -303,7 +303,7 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private read(line: string): boolean | number {
-    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital");
+    const isDigital = this.declared.signals[line]!.kind.startsWith("digital");
     const value = this.outputs.get(line) ?? this.signals?.read(line);
     return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
   }
@@ -321,7 +321,7 @@ export class Machine extends BlockMachine<Value> {
     }
     if (expression.kind === "index") {
       const signal = this.lineIn(expression);
-      return signal !== undefined && this.surroundings.signals[signal]!.kind.startsWith("digital")
+      return signal !== undefined && this.declared.signals[signal]!.kind.startsWith("digital")
         ? { signal, is: true }
         : undefined;
     }
@@ -663,12 +663,12 @@ export class Machine extends BlockMachine<Value> {
   private toolName(tool: Setup): string {
     return tool.name === "flange"
       ? "flange"
-      : nameIn(this.surroundings.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
+      : nameIn(this.declared.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
   }
   private frameName(frame: Setup): string {
     return frame.name === "world"
       ? "world"
-      : nameIn(this.surroundings.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
+      : nameIn(this.declared.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
   }
 
   // --- writing a program down -------------------------------------------------------------------------------------

@@ -51,7 +51,7 @@ const SHORT: Readonly<Record<SignalLine["kind"], string>> = {
  * A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one
  * is.
  */
-interface PendantVisitor {
+interface VisitedPallet {
   readonly first: Pose<"frame", "place">;
   readonly frame: string;
   readonly offset: string;
@@ -67,7 +67,7 @@ export class ProgramWriter extends StepWriter {
   private readonly fastest_mmps: number;
   private readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "P_", foldsCase: true });
   private readonly registers: Registers;
-  private readonly visits = new Map<string, PendantVisitor>();
+  private readonly visits = new Map<string, VisitedPallet>();
   private out = new Listing("", "");
   private tool: number | undefined;
   private frame: number | undefined;

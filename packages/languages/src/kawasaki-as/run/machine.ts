@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
@@ -34,7 +34,7 @@ const FIRST_PULSE_S = 0.2;
 
 /** Executes AS statement by statement. */
 export class Machine extends BlockMachine<Value> {
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   /** Variables whose place is a frame although it changes: the places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly arm: ControllerArm;
@@ -59,12 +59,12 @@ export class Machine extends BlockMachine<Value> {
     constants: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    emulator: NetworkEmulator,
+    declared: DeclaredCell,
     signals?: Signals,
   ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = emulator;
+    this.declared = declared;
     this.constants = constants;
     this.signals = signals;
   }
@@ -212,7 +212,7 @@ export class Machine extends BlockMachine<Value> {
       signal: lineAt(
         Math.abs(number),
         bare.kind === "variable" ? bare.name : undefined,
-        this.surroundings.signals,
+        this.declared.signals,
         expression,
       ),
       is: number > 0,
@@ -432,7 +432,7 @@ export class Machine extends BlockMachine<Value> {
 
   private write(line: Expression, id: string): Extract<Step, { type: "set" }> {
     const { signal, is } = this.lineOf(line);
-    if (this.surroundings.signals[signal]!.kind !== "digital-out")
+    if (this.declared.signals[signal]!.kind !== "digital-out")
       throw new TextError(line, "an output", `${signal} is an input, which no program sets.`);
     this.outputs.set(signal, is);
     return { id, type: "set", signal, to: is };
@@ -459,7 +459,7 @@ export class Machine extends BlockMachine<Value> {
     const isNull = (of.kind === "variable" && of.name === "null") || this.arm.tool === NULL;
     this.tool = isNull
       ? "flange"
-      : nameIn(this.surroundings.tools, toPose(this.arm.tool), of.kind === "variable" ? of.name : "tool", "_");
+      : nameIn(this.declared.tools, toPose(this.arm.tool), of.kind === "variable" ? of.name : "tool", "_");
   }
 
   private setBase(of: Expression | undefined, at: TextPlace): void {
@@ -467,7 +467,7 @@ export class Machine extends BlockMachine<Value> {
     const base = asPlace(this.evaluate(of), of).at;
     const name = of.kind === "variable" ? of.name : "base";
     this.arm.base = NULL;
-    this.baseName = base === NULL ? undefined : nameIn(this.surroundings.frames, this.arm.inWorld(base), name, "_");
+    this.baseName = base === NULL ? undefined : nameIn(this.declared.frames, this.arm.inWorld(base), name, "_");
     this.arm.base = base;
   }
 
@@ -583,7 +583,7 @@ export class Machine extends BlockMachine<Value> {
   }: PlaceValue): { readonly pose: Pose<"frame", From>; readonly frame: string } {
     if (inFrame !== undefined) {
       const { frame } = inFrame;
-      const { frames } = this.surroundings;
+      const { frames } = this.declared;
       if (!this.places.has(frame)) frames[frame] ??= this.arm.inWorld(inFrame.of);
       return { pose: toPose(inFrame.at), frame };
     }

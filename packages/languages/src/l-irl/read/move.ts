@@ -20,14 +20,14 @@ const PATHS = { PTP: "ptp", LIN: "lin", CIRCLE: "circ", SPLINE: "spline" } as co
 >;
 
 /** What a motion refers to. */
-export interface NetworkEmulator extends Pick<PoseList, "tools" | "frames" | "poses"> {
+export interface MoveReferences extends Pick<PoseList, "tools" | "frames" | "poses"> {
   readonly robot: Robot | undefined;
   /** Six numbers that count from what the header says. */
   fromOrigin<From extends string>(numbers: readonly number[], header: Header): Pose<"world", From>;
 }
 
 /** What stands behind MOVE, up to the labels. */
-export function readMove(cursor: Cursor, around: NetworkEmulator, header: Header, id: string): MoveStep {
+export function readMove(cursor: Cursor, around: MoveReferences, header: Header, id: string): MoveStep {
   const path = PATHS[cursor.oneOf(["PTP", "LIN", "CIRCLE", "SPLINE"])];
   const via = path === "circ" ? readVia(cursor, around, header) : {};
   const target = readTarget(cursor, around, header);
@@ -36,14 +36,14 @@ export function readMove(cursor: Cursor, around: NetworkEmulator, header: Header
   return { id, type: "move", path, target, ...via, speed, ...acceleration, ...readBlend(cursor) };
 }
 
-function readVia(cursor: Cursor, around: NetworkEmulator, header: Header): { readonly via: Target } {
+function readVia(cursor: Cursor, around: MoveReferences, header: Header): { readonly via: Target } {
   cursor.expect("VIA");
   const via = readTarget(cursor, around, header);
   cursor.expect("TO");
   return { via };
 }
 
-function readTarget(cursor: Cursor, around: NetworkEmulator, header: Header): Target {
+function readTarget(cursor: Cursor, around: MoveReferences, header: Header): Target {
   const sort = cursor.oneOf(["JOINTS", "POSE", "AT"]);
   if (sort === "JOINTS") {
     const q = readJoints(cursor, around.robot, header);
@@ -69,7 +69,7 @@ const inWorld = (worldFromTcp: Pose<"world", "tcp">): Placed => ({
 });
 
 /** A frame stands behind the numbers that count from it. */
-function readPlace(cursor: Cursor, around: NetworkEmulator, header: Header): Placed {
+function readPlace(cursor: Cursor, around: MoveReferences, header: Header): Placed {
   const numbers = cursor.numbers(6, "number");
   if (!cursor.accept("IN")) return inWorld(around.fromOrigin(numbers, header));
   const { here } = cursor;
@@ -79,7 +79,7 @@ function readPlace(cursor: Cursor, around: NetworkEmulator, header: Header): Pla
   return { frame, pose: poseOf(numbers, header) };
 }
 
-function readNamed(cursor: Cursor, { poses }: NetworkEmulator): Placed {
+function readNamed(cursor: Cursor, { poses }: MoveReferences): Placed {
   const { here } = cursor;
   const name = cursor.name("the name of a pose");
   const named = poses.get(name);
@@ -88,7 +88,7 @@ function readNamed(cursor: Cursor, { poses }: NetworkEmulator): Placed {
   return inWorld(named.worldFromTcp);
 }
 
-function readTool(cursor: Cursor, { tools }: NetworkEmulator): string | undefined {
+function readTool(cursor: Cursor, { tools }: MoveReferences): string | undefined {
   if (!cursor.accept("TOOL")) return undefined;
   const { here } = cursor;
   const tool = cursor.name("the name of a tool");

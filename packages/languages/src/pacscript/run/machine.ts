@@ -74,7 +74,7 @@ export class PacMachine extends BasicMachine<Said> {
       return undefined;
     const number = expression.indices[0]!;
     const address = this.numberOf(number);
-    const written = Object.values(this.surroundings.signals).some(
+    const written = Object.values(this.declared.signals).some(
       line => line.address === address && line.kind === "digital-out",
     );
     return this.line(number, written ? "digital-out" : "digital-in");

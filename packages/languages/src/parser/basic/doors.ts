@@ -16,12 +16,12 @@ export const basicEntryPoints = ({ machine, ...language }: BasicLanguage): Block
   blockEntryPoints({
     ...language,
     script: (source, robot, worldFromBase) =>
-      mainScript(source, (emulator, signals) =>
+      mainScript(source, (declared, signals) =>
         machine({
           source,
           robot,
           worldFromBase,
-          surroundings: emulator,
+          declared,
           ...(signals === undefined ? {} : { signals }),
         }),
       ),

@@ -1,6 +1,6 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
-import type { NetworkEmulator } from "../surroundings.ts";
+import type { DeclaredCell } from "../declared-cell.ts";
 import {
   BlockMachine,
   constantsOf,
@@ -20,7 +20,7 @@ export interface RunContext {
   readonly source: BasicSource;
   readonly robot: Robot;
   readonly worldFromBase: Pose<"world", "base">;
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   readonly signals?: Signals;
 }
 type Binary = Extract<Expression, { kind: "binary" }>;
@@ -31,7 +31,7 @@ type Call = Extract<Expression, { kind: "call" }>;
  * remembered.
  */
 export abstract class BasicMachine<S extends object> extends BlockMachine<Value> {
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   /** Variables whose place is a frame although it changes: the places of a pallet that is being read. */
   readonly places = new Set<string>();
   protected readonly arm: UprightArm;
@@ -46,15 +46,11 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   /** Whether the tool was said where the program is now; joint angles alone do not ask for one. */
   private hasTool = false;
 
-  constructor(
-    { source, robot, worldFromBase, surroundings: emulator, signals }: RunContext,
-    upright: Upright,
-    state: S,
-  ) {
+  constructor({ source, robot, worldFromBase, declared, signals }: RunContext, upright: Upright, state: S) {
     super(source.routines);
     this.arm = new UprightArm(robot, upright, worldFromBase);
     this.constants = constantsOf(source.main, source.routines.values());
-    this.surroundings = emulator;
+    this.declared = declared;
     this.signals = signals;
     this.state = state;
   }
@@ -170,7 +166,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
 
   /** The line of that number, under the name of the variable that holds the number, else DO3 and its like. */
   protected line(of: Expression, kind: "digital-in" | "digital-out"): string {
-    const { signals } = this.surroundings;
+    const { signals } = this.declared;
     const address = this.numberOf(of);
     if (!Number.isInteger(address) || address < 0)
       throw new TextError(of, "the number of a line", `There is no line ${address}.`);
@@ -283,7 +279,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   protected useTool(of: Rigid, name: string | undefined): void {
     this.arm.tool = of;
     this.hasTool = true;
-    this.tool = name === undefined ? "flange" : kept(this.surroundings.tools, asPose(of), name);
+    this.tool = name === undefined ? "flange" : kept(this.declared.tools, asPose(of), name);
   }
 
   protected placed(at: Rigid, frame = ""): PlaceValue {
@@ -348,7 +344,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   }: PlaceValue): { readonly pose: Pose<"frame", From>; readonly frame: string } {
     if (within !== undefined) {
       const { variable, of } = within;
-      const { frames } = this.surroundings;
+      const { frames } = this.declared;
       if (!this.places.has(variable)) frames[variable] ??= this.arm.inWorld(of);
       return { pose: asPose(within.at), frame: variable };
     }
@@ -359,7 +355,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   /** A frame that numbers count in from now on, under the name of the variable that holds its number. */
   protected frameAt(name: string, of: Rigid): void {
     this.frames.set(name, of);
-    this.surroundings.frames[name] ??= this.arm.inWorld(of);
+    this.declared.frames[name] ??= this.arm.inWorld(of);
   }
 }
 

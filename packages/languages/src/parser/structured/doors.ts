@@ -13,7 +13,7 @@ import {
 import type { CheckedReader, ReadSteps } from "../../reading/checked-import.ts";
 import { TextError, textFault } from "../faults.ts";
 import { dryRun } from "../rehearse.ts";
-import { createNetworkEmulator, type NetworkEmulator } from "../surroundings.ts";
+import { createDeclaredCell, type DeclaredCell } from "../declared-cell.ts";
 import { RunsOnTheSpot } from "./machine.ts";
 import { WaitsOutside } from "../waits-outside.ts";
 import { Outline, type OutlineMachine } from "./outline.ts";
@@ -22,10 +22,10 @@ import type { Block } from "./tree.ts";
 /** A text that was read, for one robot: its title, and how it is executed and written down. */
 export interface Script<M> {
   readonly title: string;
-  /** A machine before its first statement. It adds the tools, frames and lines that it meets to `surroundings`. */
-  readonly machine: (emulator: NetworkEmulator, signals?: Signals) => M;
+  /** A machine before its first statement. It adds the tools, frames and lines that it meets to `declared`. */
+  readonly machine: (declared: DeclaredCell, signals?: Signals) => M;
   /** The one that writes the program down, where that takes another. */
-  readonly writer?: (emulator: NetworkEmulator) => M;
+  readonly writer?: (declared: DeclaredCell) => M;
   readonly run: (machine: M) => Generator<Executed, unknown>;
   /** The statements of the program that is started, with `machine` ready to evaluate them. */
   readonly block: (machine: M) => Block;
@@ -100,18 +100,18 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
     }
   }
   function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
-    const emulator = createNetworkEmulator();
+    const declared = createDeclaredCell();
     const run = function* (signals?: Signals): Generator<Executed, void> {
       const asked = new AskedSignals(signals);
       try {
-        yield* script.run(script.machine(emulator, asked));
+        yield* script.run(script.machine(declared, asked));
       } catch (cause) {
         // What turns in a circle while inputs are looked at goes on when they change.
         if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
         throw cause;
       }
     };
-    return { kind: "ready", run, context: emulator };
+    return { kind: "ready", run, context: declared };
   }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
@@ -126,9 +126,9 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
       const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script;
-      const emulator = createNetworkEmulator();
+      const declared = createDeclaredCell();
       try {
-        const machine = writer(emulator);
+        const machine = writer(declared);
         const outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
         const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine);
         const { groups, routines, pallets } = outline;
@@ -136,7 +136,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
           kind: "parsed",
           executable: () => executable(opened.script),
           warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
-          program: { ...emptyProgram(robot.id, title), ...emulator, groups, pallets, routines, steps },
+          program: { ...emptyProgram(robot.id, title), ...declared, groups, pallets, routines, steps },
         };
       } catch (cause) {
         if (!(cause instanceof TextError)) throw cause;

@@ -132,7 +132,7 @@ const NAME_LENGTH = 32;
 const STRING_LENGTH = 80;
 
 /** A datum of a module or a routine. */
-export interface ConnectionParameter extends TextPlace {
+export interface DataDeclaration extends TextPlace {
   readonly storage: string;
   readonly type: string;
   readonly name: string;
@@ -142,10 +142,10 @@ export interface ConnectionParameter extends TextPlace {
 /** What a text holds. Names are lower case; `spelling` has them as they were first written. */
 export interface Source {
   readonly title: string;
-  readonly data: readonly ConnectionParameter[];
+  readonly data: readonly DataDeclaration[];
   readonly routines: ReadonlyMap<string, Routine>;
   /** Data of the routines, by routine. */
-  readonly local: ReadonlyMap<string, readonly ConnectionParameter[]>;
+  readonly local: ReadonlyMap<string, readonly DataDeclaration[]>;
   /** Routines whose error handler goes on behind a search that found nothing. */
   readonly forgiving: ReadonlySet<string>;
   readonly spelling: ReadonlyMap<string, string>;
@@ -158,13 +158,13 @@ export type SourceAnswer =
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
 class Reader extends RecoveringReader {
-  private readonly data: ConnectionParameter[] = [];
+  private readonly data: DataDeclaration[] = [];
   private readonly routines = new Map<string, Routine>();
-  private readonly local = new Map<string, ConnectionParameter[]>();
+  private readonly local = new Map<string, DataDeclaration[]>();
   private readonly forgiving = new Set<string>();
   private readonly spelling = new Map<string, string>();
   private readonly remarks: string[] = [];
-  private current: ConnectionParameter[] | undefined;
+  private current: DataDeclaration[] | undefined;
   private title = "";
 
   constructor(text: string) {
@@ -305,7 +305,7 @@ class Reader extends RecoveringReader {
   }
 
   /** `CONST robtarget p10{2} := …;` */
-  private datum(into: ConnectionParameter[]): void {
+  private datum(into: DataDeclaration[]): void {
     const { cursor } = this;
     const storage = cursor.take();
     const type = cursor.name("the type of the datum");
@@ -333,7 +333,7 @@ class Reader extends RecoveringReader {
     if (cursor.accept("(")) this.parameters(parameters);
     if (this.routines.has(name))
       this.faults.push(new TextError(at, "a name used once", `The routine ${name} is declared twice.`).fault);
-    const local: ConnectionParameter[] = [];
+    const local: DataDeclaration[] = [];
     this.local.set(name, local);
     this.current = local;
     const body = this.body(opened, [end, "error", "undo", "backward"]);

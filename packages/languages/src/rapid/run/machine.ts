@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -21,7 +21,7 @@ import {
   type Routine,
   type WaitUntil,
 } from "../../parser/structured/index.ts";
-import type { ConnectionParameter, Source } from "../read/grammar.ts";
+import type { DataDeclaration, Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
@@ -72,7 +72,7 @@ interface Motion {
 /** Executes RAPID statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   /** Work objects that are frames although they change: the places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly source: Source;
@@ -91,7 +91,7 @@ export class Machine extends BlockMachine<Value> {
     changing: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    emulator: NetworkEmulator,
+    declared: DeclaredCell,
     signals?: Signals,
   ) {
     super(source.routines);
@@ -99,9 +99,9 @@ export class Machine extends BlockMachine<Value> {
     this.known = predefined(robot.maxTcpSpeed_mps);
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = emulator;
+    this.declared = declared;
     this.lines = new Lines(
-      emulator.signals,
+      declared.signals,
       signals,
       name => this.spelt(name),
       name => this.variable(name) === undefined,
@@ -112,7 +112,7 @@ export class Machine extends BlockMachine<Value> {
 
   // --- data -------------------------------------------------------------------------------------------------------
 
-  private make(datum: ConnectionParameter, into: Map<string, Value>): void {
+  private make(datum: DataDeclaration, into: Map<string, Value>): void {
     const { name, type, value, sizes } = datum;
     if (value !== undefined) into.set(name, this.evaluate(value));
     else if (sizes.length > 0) into.set(name, this.empty(sizes, type));
@@ -249,7 +249,7 @@ export class Machine extends BlockMachine<Value> {
   protected store(to: Expression, value: Value): void {
     if (to.kind === "variable") {
       const scope = this.scopes.at(-1);
-      const declares = (data: readonly ConnectionParameter[] | undefined): boolean =>
+      const declares = (data: readonly DataDeclaration[] | undefined): boolean =>
         data?.some(({ name }) => name === to.name) === true;
       if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine))))
         scope.names.set(to.name, value);
@@ -558,7 +558,7 @@ export class Machine extends BlockMachine<Value> {
     this.arm.tool = this.tool;
     if (tool.kind === "variable" && tool.name === "tool0") return "flange";
     return nameIn(
-      this.surroundings.tools,
+      this.declared.tools,
       toPose<"flange", "tcp">(this.tool),
       tool.kind === "variable" ? this.spelt(tool.name) : "tool",
       "_",
@@ -582,7 +582,7 @@ export class Machine extends BlockMachine<Value> {
     const spelt = this.spelt(name);
     if (this.places.has(spelt)) return { name: spelt, base };
     if (this.changing.has(name)) return { name: "world", base };
-    this.surroundings.frames[spelt] ??= this.arm.world(base);
+    this.declared.frames[spelt] ??= this.arm.world(base);
     return { name: spelt, base };
   }
 
@@ -636,7 +636,7 @@ export class Machine extends BlockMachine<Value> {
     if (like === undefined) return { frame: "world", pose: this.arm.world(times(user, own)) };
     const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at);
     const spelt = this.spelt(like.name);
-    this.surroundings.frames[spelt] ??= this.arm.world(times(user, shared));
+    this.declared.frames[spelt] ??= this.arm.world(times(user, shared));
     return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
   }
 

@@ -9,7 +9,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Do,
@@ -57,7 +57,7 @@ class OutsideValue extends TextError {}
 /** Executes URScript statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   private readonly constants: ReadonlySet<string>;
   private readonly outputs = new Map<string, boolean | number>();
   private readonly signals: Signals | undefined;
@@ -75,12 +75,12 @@ export class Machine extends BlockMachine<Value> {
     constants: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    emulator: NetworkEmulator,
+    declared: DeclaredCell,
     signals?: Signals,
   ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = emulator;
+    this.declared = declared;
     this.constants = constants;
     this.signals = signals;
   }
@@ -268,13 +268,13 @@ export class Machine extends BlockMachine<Value> {
       route,
       this.numberOf(number),
       number.kind === "variable" ? number.name : undefined,
-      this.surroundings.signals,
+      this.declared.signals,
       number,
     );
   }
 
   private read(line: string): boolean | number {
-    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital");
+    const isDigital = this.declared.signals[line]!.kind.startsWith("digital");
     const value = this.outputs.get(line) ?? this.signals?.read(line);
     return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
   }
@@ -409,7 +409,7 @@ export class Machine extends BlockMachine<Value> {
       route,
       this.numberOf(number),
       number.kind === "variable" ? number.name : undefined,
-      this.surroundings.signals,
+      this.declared.signals,
       number,
     );
     const to = route.kind === "digital-out" ? asTruth(value, args.at) : asNumber(value, args.at);
@@ -425,7 +425,7 @@ export class Machine extends BlockMachine<Value> {
     this.tool = pose.six.every(x => x === 0)
       ? "flange"
       : nameIn(
-          this.surroundings.tools,
+          this.declared.tools,
           toPose(this.arm.tcp),
           given.kind === "variable" && given.name !== "flange" ? given.name : "tool",
           "_",
@@ -497,7 +497,7 @@ export class Machine extends BlockMachine<Value> {
     const frame = value.inFrame?.frame;
     if (frame !== undefined && this.places.has(frame)) return { pose: toPose(matrixOf(value.inFrame!.six)), frame };
     if (frame !== undefined && this.constants.has(frame)) {
-      const { frames } = this.surroundings;
+      const { frames } = this.declared;
       frames[frame] ??= this.arm.world(matrixOf(value.inFrame!.of));
       return { pose: toPose(matrixOf(value.inFrame!.six)), frame };
     }

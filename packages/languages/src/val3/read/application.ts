@@ -5,7 +5,7 @@ import { readCode } from "./code.ts";
 import { xmlParts } from "./xml.ts";
 
 /** A datum with the attributes of its values, by their keys. */
-export interface ConnectionParameter extends TextPlace {
+export interface DataDeclaration extends TextPlace {
   readonly name: string;
   readonly type: string;
   readonly values: readonly ReadonlyMap<string, string>[];
@@ -15,7 +15,7 @@ export interface Application {
   readonly main: Routine;
   /** By "call name". */
   readonly routines: ReadonlyMap<string, Routine>;
-  readonly data: readonly ConnectionParameter[];
+  readonly data: readonly DataDeclaration[];
   /** Variables of a program, by its name: each with the value that its type begins with. */
   readonly locals: ReadonlyMap<string, ReadonlyMap<string, string>>;
 }
@@ -33,7 +33,7 @@ interface OpenProgram extends TextPlace {
 /** Reads programs (.pgx) and data (.dtx), one behind the other. */
 export function readApplication(text: string): ApplicationAnswer {
   const programs: OpenProgram[] = [];
-  const data: ConnectionParameter[] = [];
+  const data: DataDeclaration[] = [];
   let program: OpenProgram | undefined;
   let values: Map<string, string>[] | undefined;
   let seen = false;

@@ -11,7 +11,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, type NetworkEmulator } from "../../parser/index.ts";
+import { TextError, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -71,7 +71,7 @@ const NO_LIMIT = 10_000;
 /** Executes VAL 3 statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: NetworkEmulator;
+  readonly declared: DeclaredCell;
   /** Frames that are places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly application: Application;
@@ -87,14 +87,14 @@ export class Machine extends BlockMachine<Value> {
     changing: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    emulator: NetworkEmulator,
+    declared: DeclaredCell,
     signals?: Signals,
   ) {
     super(application.routines);
     this.application = application;
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = emulator;
+    this.declared = declared;
     this.signals = signals;
     for (const datum of application.data)
       for (const [i, value] of valuesOf(datum).entries())
@@ -258,7 +258,7 @@ export class Machine extends BlockMachine<Value> {
   // --- lines ------------------------------------------------------------------------------------------------------
 
   private read(name: string, kind: SignalLine["kind"]): boolean | number {
-    this.surroundings.signals[name] ??= { kind };
+    this.declared.signals[name] ??= { kind };
     const value = this.outputs.get(name) ?? this.signals?.read(name);
     return kind.startsWith("digital")
       ? value === true || (typeof value === "number" && value !== 0)
@@ -277,7 +277,7 @@ export class Machine extends BlockMachine<Value> {
       case "index": {
         const name = this.nameOf(expression);
         if (name === undefined || kindOf(this.variable(name)) !== "dio") return undefined;
-        this.surroundings.signals[name] ??= { kind: "digital-in" };
+        this.declared.signals[name] ??= { kind: "digital-in" };
         return { signal: name, is: true };
       }
       case "unary": {
@@ -303,7 +303,7 @@ export class Machine extends BlockMachine<Value> {
           (sign !== "<" && sign !== ">")
         )
           return undefined;
-        this.surroundings.signals[line] ??= { kind: "analogue-in" };
+        this.declared.signals[line] ??= { kind: "analogue-in" };
         return sign === ">" ? { signal: line, above: right.value } : { signal: line, below: right.value };
       }
       default:
@@ -358,7 +358,7 @@ export class Machine extends BlockMachine<Value> {
 
   private set(signal: string, to: boolean | number, at: TextPlace): Step {
     this.settled(at);
-    this.surroundings.signals[signal] ??= { kind: typeof to === "boolean" ? "digital-out" : "analogue-out" };
+    this.declared.signals[signal] ??= { kind: typeof to === "boolean" ? "digital-out" : "analogue-out" };
     this.outputs.set(signal, to);
     return { id: this.stepId(at), type: "set", signal, to };
   }
@@ -508,16 +508,16 @@ export class Machine extends BlockMachine<Value> {
   private frameName(name: string, at: TextPlace): string {
     if (name === "world" || this.places.has(name)) return name;
     if (this.changing.has(name)) return "world";
-    this.surroundings.frames[name] ??= this.arm.cell(this.father(name, at));
+    this.declared.frames[name] ??= this.arm.cell(this.father(name, at));
     return name;
   }
 
   private toolName(trsf: Trsf, name: string): string {
     if (name === "flange") return name;
     const tool = toPose<"flange", "tcp">(trsf);
-    const known = this.surroundings.tools[name];
+    const known = this.declared.tools[name];
     if (known === undefined || JSON.stringify(known) === JSON.stringify(tool)) {
-      this.surroundings.tools[name] = tool;
+      this.declared.tools[name] = tool;
       return name;
     }
     return this.toolName(trsf, `${name}_2`);

@@ -1,6 +1,6 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
-import type { ConnectionParameter } from "../read/application.ts";
+import type { DataDeclaration } from "../read/application.ts";
 import type { Config } from "./arm.ts";
 import { NOTHING, fromSix, type Trsf } from "./trsf.ts";
 
@@ -61,7 +61,7 @@ const SIX = ["x", "y", "z", "rx", "ry", "rz"];
 const JOINTS = ["j1", "j2", "j3", "j4", "j5", "j6"];
 
 /** The values of a datum; those that nothing is done with here come out as none. */
-export function valuesOf({ type, values, line, column }: ConnectionParameter): readonly Value[] {
+export function valuesOf({ type, values, line, column }: DataDeclaration): readonly Value[] {
   return values.flatMap((attributes): Value[] => {
     const number = (name: string, otherwise = 0): number => {
       const text = attributes.get(name);

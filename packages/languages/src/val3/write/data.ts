@@ -101,7 +101,7 @@ export const trsfAttributes = (pose: Pose): string => attributes(sixOf(pose).map
 export const jointAttributes = (q_rad: ArrayLike<number>): string =>
   attributes(Array.from(q_rad, (q, i): [string, string] => [`j${i + 1}`, fixed(degrees(q), DEG)]));
 
-interface ConnectionParameter {
+interface DataDeclaration {
   readonly name: string;
   readonly type: string;
   readonly value: string;
@@ -111,13 +111,13 @@ interface ConnectionParameter {
 /** The data of an application, in the order in which the program first needs them. */
 export class DataList {
   readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "n_", foldsCase: true });
-  private readonly data = new Map<string, ConnectionParameter>();
+  private readonly data = new Map<string, DataDeclaration>();
 
   add(name: string, type: string, value: string, step: string): string {
     if (!this.data.has(name)) this.data.set(name, { name, type, value, step });
     return name;
   }
-  get all(): readonly ConnectionParameter[] {
+  get all(): readonly DataDeclaration[] {
     return [...this.data.values()];
   }
 }

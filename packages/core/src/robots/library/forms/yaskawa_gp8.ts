@@ -1,4 +1,4 @@
-import type { FormLoft } from "../../shapes/form.ts";
+import type { FormLoft } from "../../../model/form.ts";
 
 /**
  * Shapes of the links of yaskawa_gp8 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published

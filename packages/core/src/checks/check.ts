@@ -1,0 +1,225 @@
+import type { CellGeometry } from "../collision/cell.ts";
+import type { Payload } from "../dynamics/model.ts";
+import type { Robot } from "../model/robot.ts";
+import type { Pose } from "../spatial/pose.ts";
+import type { Plan } from "../trajectory/plan.ts";
+import { GRIPPER_S } from "../trajectory/planner.ts";
+import { motionAssumptions } from "../model/jerk.ts";
+import { checkBranch, checkImpasses } from "./branch.ts";
+import { checkCollision, keptSentence, type Collisions } from "./collision.ts";
+import { layOutProgram, type Layout } from "../trajectory/layout.ts";
+import { checkLimits } from "./limits.ts";
+import { checkReach } from "./reach.ts";
+import type { CheckScene } from "./scene.ts";
+import { checkSingular } from "./singular.ts";
+import { checkSpeed } from "./speed.ts";
+import { checkEdges } from "./edges.ts";
+import { FindingCollector } from "./finding-collector.ts";
+import { checkFlow } from "./flow.ts";
+import { checkPayload } from "./payload.ts";
+import { checkSignals } from "./signals.ts";
+import { checkStand } from "./stand.ts";
+import { checkTorque } from "./torque.ts";
+import { checkWorkspace } from "./workspace.ts";
+import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
+import { GRIP_REACH_M, partsAreFollowed, type CarriedPart } from "./grasped-parts.ts";
+import type { Program, Step } from "../program/program.ts";
+import type { Finding, Verdict } from "./verdict.ts";
+import { everyStep } from "../program/walk.ts";
+
+export interface CheckOptions {
+  /** The cell to keep clear of; without it collisions are not looked at and the verdict says so. */
+  readonly cell?: CellGeometry;
+  /** Where the robot stands; that of `cell` by default, else the world's origin. */
+  readonly worldFromBase?: Pose<"world", "base">;
+  /** Posture the program starts from; the robot's home by default. */
+  readonly start_rad?: ArrayLike<number>;
+  /** Distance the robot keeps from the cell [m], its shape error on top; 0 asks for no contact only. */
+  readonly margin_m?: number;
+  /** Whether to keep what proves every motion clear of contact, for `verifyProgram`. */
+  readonly certify?: boolean;
+  /** What the flange carries before the first payload step; nothing by default. */
+  readonly payload?: Payload;
+  /** Called with 0 … 1 now and then. */
+  readonly onProgress?: (share: number) => void;
+  /** Asked now and then; steps not reached by then are "unknown". */
+  readonly cancelled?: () => boolean;
+}
+
+export interface Checked {
+  readonly verdict: Verdict;
+  /** The findings of the verdict that make its steps bad, in order of time; the others warn. */
+  readonly bad: readonly Finding[];
+  readonly plan: Plan;
+  /** The parts of the cell that the program carries, in the order they are taken. */
+  readonly carried: readonly CarriedPart[];
+  /** With `certify` and a cell: motions that are not clear have none. Steps are named as they are in the plan. */
+  readonly certificate?: ProgramCertificate;
+}
+
+/** The part of the work that laying out is when a cell is checked as well. */
+const LAYOUT_SHARE = 0.4;
+
+/**
+ * Judges a whole program: reach, joint limits, speeds, torques, postures, singular postures and collision, each step
+ * with what was found, in numbers and a sentence, and ways out. The plan goes on behind steps that are bad, beyond
+ * joint limits where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
+ */
+export function checkProgram(program: Program, robot: Robot, options: CheckOptions = {}): Checked {
+  const { cell, onProgress, cancelled } = options;
+  const worldFromBase = options.worldFromBase ?? cell?.worldFromBase;
+  const layoutShare = cell === undefined ? 1 : LAYOUT_SHARE;
+  const layout = layOutProgram(program, robot, {
+    ...(worldFromBase === undefined ? {} : { worldFromBase }),
+    ...(options.start_rad === undefined ? {} : { start_rad: options.start_rad }),
+    ...(onProgress === undefined
+      ? {}
+      : {
+          onProgress: (share: number) => {
+            onProgress(share * layoutShare);
+          },
+        }),
+    ...(cancelled === undefined ? {} : { cancelled }),
+  });
+  const book = new FindingCollector(program);
+  const scene: CheckScene = {
+    program,
+    robot,
+    layout,
+    context: {
+      tools: program.tools,
+      frames: program.frames,
+      ...(worldFromBase === undefined ? {} : { worldFromBase }),
+    },
+    add: (id, severity, finding) => {
+      book.add(id, severity, finding, layout.turns.get(id));
+    },
+  };
+  checkReach(scene);
+  checkWorkspace(scene);
+  checkLimits(scene);
+  checkSpeed(scene);
+  checkBranch(scene);
+  checkImpasses(scene);
+  checkSingular(scene);
+  checkSignals(scene);
+  const unweighed = checkPayload(scene);
+  checkFlow(scene);
+  const torque = checkTorque(scene, options.payload);
+  if (cell !== undefined) checkEdges(scene, cell);
+  const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
+  const margin_m = options.margin_m ?? 0;
+  const certificates: SegmentCertificate[] | undefined =
+    options.certify === true && cell !== undefined ? [] : undefined;
+  const collision =
+    cell === undefined
+      ? undefined
+      : checkCollision(scene, {
+          cell,
+          margin_m,
+          ...(certificates === undefined ? {} : { certificates }),
+          ...(onProgress === undefined
+            ? {}
+            : {
+                onProgress: (share: number) => {
+                  onProgress(layoutShare + share * (1 - layoutShare));
+                },
+              }),
+          ...(cancelled === undefined ? {} : { cancelled }),
+        });
+  onProgress?.(1);
+  const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
+  const written = [...everyStep(program)];
+  const steps = written.map(step => {
+    const evaluated =
+      (layout.complete || layout.evaluated.has(step.id)) &&
+      !unproven.has(step.id) &&
+      !layout.unjudged.has(step.id) &&
+      !unweighed.has(step.id);
+    return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
+  });
+  const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");
+  const verdict: Verdict = {
+    ok,
+    steps,
+    duration_s: layout.plan.duration_s,
+    clearance_m: collision?.clearance_m ?? null,
+    torque,
+    assumptions: [
+      ...robot.assumptions,
+      ...motionAssumptions(robot),
+      ...assumed(written, layout),
+      ...unjudged,
+      ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
+      cell === undefined
+        ? "Collisions were not looked at: no cell was given."
+        : "Objects stand where the cell draws them.",
+      ...(cell === undefined || cell.objects.length === 0 ? [] : [keptSentence(cell, margin_m)]),
+      ...(collision === undefined ? [] : carried(program, written, collision)),
+    ],
+  };
+  const plan = asWritten(layout);
+  const bad = book.bad();
+  const parts = collision?.carried ?? [];
+  if (certificates === undefined) return { verdict, bad, plan, carried: parts };
+  const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
+  return {
+    verdict,
+    bad,
+    plan,
+    carried: parts,
+    certificate: { robot: robot.id, program: program.name, margin_m, segments },
+  };
+}
+
+/** What is taken for true of the parts that are gripped. */
+function carried(program: Program, steps: readonly Step[], { taken, missed }: Collisions): string[] {
+  if (!steps.some(step => step.type === "gripper")) return [];
+  if (!partsAreFollowed(program))
+    return [
+      "Gripped parts stand where they were drawn: the program decides between motions, and a part may be held on one side only.",
+    ];
+  return [
+    ...(taken > 0
+      ? [
+          "The part at the grip point moves with the gripper from where it closes to where it opens, and stays there; nothing that lies on it comes along.",
+        ]
+      : []),
+    ...(missed > 0
+      ? [
+          `The gripper closes on nothing ${missed === 1 ? "once" : `${missed} times`}: no work piece is drawn within ${GRIP_REACH_M * 1000} mm of its grip point.`,
+        ]
+      : []),
+  ];
+}
+
+const writtenId = (layout: Layout, id: string): string => layout.turns.get(id)?.written.id ?? id;
+
+/** The plan with the ids that the program has. */
+function asWritten(layout: Layout): Plan {
+  if (layout.turns.size === 0) return layout.plan;
+  return {
+    ...layout.plan,
+    segments: layout.plan.segments.map(segment => ({ ...segment, step: writtenId(layout, segment.step) })),
+  };
+}
+
+function assumed(steps: readonly Step[], layout: Layout): string[] {
+  const has = (type: Step["type"]): boolean => steps.some(step => step.type === type);
+  return [
+    ...(has("gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
+    ...(has("wait-for") ? ["Waits for signals are given no time."] : []),
+    ...(has("if") ? ["Both sides of every decision were looked at, one after the other in the plan."] : []),
+    ...(steps.some(step => step.type === "repeat" && step.times === "forever")
+      ? ["Loops without end were looked at twice round."]
+      : []),
+    ...(steps.some(step => step.type === "move" && step.until !== undefined)
+      ? ["Searches were looked at as if nothing is found before their end."]
+      : []),
+    ...(layout.cut === undefined || !has("repeat")
+      ? []
+      : [
+          `Beyond ${layout.cut} steps, loops were looked at twice round; the duration is less than that of the whole program.`,
+        ]),
+  ];
+}

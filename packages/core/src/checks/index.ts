@@ -1,0 +1,11 @@
+export * from "./verdict.ts";
+export * from "./check.ts";
+export * from "./certificate.ts";
+export * from "./certificate-file.ts";
+export * from "./detour.ts";
+export { keptSentence } from "./collision.ts";
+export { SHARP_RAD, tracedEdgeOf, type TracedEdgeRecord } from "./edges.ts";
+export { standOf } from "./stand.ts";
+export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";
+export { NEAR_LIMIT_RAD } from "./limits.ts";
+export { NEAR_SINGULAR_RAD } from "./singular.ts";
