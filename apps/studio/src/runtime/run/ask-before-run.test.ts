@@ -2,10 +2,11 @@ import type { StepReport, Verdict } from "@twincell/core";
 import { edgeTraceCell, tracedCartonCell } from "@twincell/project";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { registerCommands } from "../../stores/commands.ts";
-import { dialogStore } from "../../stores/dialogs.ts";
+import { dialogStore, openDialog } from "../../stores/dialogs.ts";
 import { showDocument } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
+import { stopEverything } from "../../stores/stop.ts";
 import { askBeforeRun, leaveRunQuestion, seenFindings, startRunQuestions } from "./ask-before-run.ts";
 
 const verdictOf = (ok: boolean): Verdict => ({
@@ -84,6 +85,24 @@ test("a verdict of what was there before the last change does not count: the che
   askBeforeRun(begin);
   playStore.setState({ stale: false, checking: null, verdict: verdictOf(false) });
   expect([begun, asked()]).toEqual([1, "red"]);
+});
+
+test("STOP while the check is waited for takes the start away: a green check afterwards moves nothing", () => {
+  playStore.setState({ stale: true, checking: 0.5, trouble: null, verdict: null });
+  askBeforeRun(begin);
+  expect(stopEverything()).toEqual([]);
+  expect([asked(), dialogStore.getState().open]).toEqual([undefined, null]);
+  playStore.setState({ stale: false, checking: null, verdict: verdictOf(true) });
+  expect(begun).toBe(0);
+});
+
+test("another dialog in the place of the question takes the start away", () => {
+  playStore.setState({ stale: true, checking: 0.5, trouble: null, verdict: null });
+  askBeforeRun(begin);
+  openDialog("palette");
+  expect([asked(), dialogStore.getState().open]).toEqual([undefined, "palette"]);
+  playStore.setState({ stale: false, checking: null, verdict: verdictOf(true) });
+  expect(begun).toBe(0);
 });
 
 test("a check that was cancelled begins anew, and one that could not be done is no green light", () => {

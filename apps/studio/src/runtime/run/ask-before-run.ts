@@ -5,6 +5,7 @@ import { programOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationLive } from "../robot/stations.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
+import { onStop } from "../../stores/stop.ts";
 
 /**
  * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is
@@ -45,16 +46,28 @@ export function seenFindings(): readonly string[] {
 
 /** Takes the question away; the run does not begin. */
 export function leaveRunQuestion(): void {
-  runQuestionStore.setState({ question: null });
+  if (runQuestionStore.getState().question) runQuestionStore.setState({ question: null });
   if (dialogStore.getState().open === "run-question") closeDialog();
 }
 
-/** Goes on with a question that waits for the check as soon as that is done. */
+/**
+ * Goes on with a question that waits for the check as soon as that is done. STOP takes the question away, and so does
+ * another dialog in its place: nothing begins to move that nobody is asked about any more.
+ */
 export function startRunQuestions(): () => void {
-  return playStore.subscribe(({ stale }, before) => {
-    const { question } = runQuestionStore.getState();
-    if (stale || !before.stale || question?.kind !== "checking") return;
-    leaveRunQuestion();
-    askBeforeRun(question.proceed);
-  });
+  const ends = [
+    playStore.subscribe(({ stale }, before) => {
+      const { question } = runQuestionStore.getState();
+      if (stale || !before.stale || question?.kind !== "checking") return;
+      leaveRunQuestion();
+      askBeforeRun(question.proceed);
+    }),
+    dialogStore.subscribe(({ open }) => {
+      if (open !== "run-question") leaveRunQuestion();
+    }),
+    onStop(leaveRunQuestion),
+  ];
+  return () => {
+    for (const end of ends) end();
+  };
 }
