@@ -345,3 +345,34 @@ test("M-10 a palletising cell is built from an empty one by clicks and typed num
   await expect.poll(materials).toEqual(["plain"]);
   expect(problems).toEqual([]);
 }, 180_000);
+
+test("another robot is chosen by its picture: painted when it comes into view, and the cell gets it", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("cell.robot");
+  });
+  const dialog = page.getByRole("dialog", { name: "Another robot" });
+  const card = dialog.locator("label.robot-card:has(input[value=yaskawa_gp8])");
+  await card.locator("canvas[data-painted=yaskawa_gp8]").waitFor({ timeout: 60_000 });
+  /** Share of its pixels that show something. */
+  const covered = await card.locator("canvas").evaluate(each => {
+    const { width, height } = each as HTMLCanvasElement;
+    const { data } = (each as HTMLCanvasElement).getContext("2d")!.getImageData(0, 0, width, height);
+    let shown = 0;
+    for (let i = 3; i < data.length; i += 4) if (data[i]! > 127) shown++;
+    return shown / (width * height);
+  });
+  expect(covered).toBeGreaterThan(0.05);
+  // The last of the list is far below: it is not painted before it is seen.
+  expect(await dialog.locator("label.robot-card").count()).toBeGreaterThan(100);
+  expect(await dialog.locator("label.robot-card canvas[data-painted]").count()).toBeLessThan(30);
+  await dialog.getByRole("searchbox").fill("ur10");
+  await dialog.locator("label.robot-card:has(input[value=ur10e])").click();
+  await dialog.locator(".robots-details canvas[data-painted=ur10e]").waitFor();
+  await page.screenshot({ path: picture("building-robots") });
+  await dialog.getByRole("button", { name: /^Use the .*UR10e/ }).click();
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document?.robot.id === "ur10e");
+  expect(problems).toEqual([]);
+}, 120_000);

@@ -81,3 +81,32 @@ test.each([
     expect(problems).toEqual([]);
   },
 );
+
+test("T-64 registration and twin error are typed in Collision, added to the shape error in sight, and taken back by undo", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("view.collision");
+  });
+  const dialog = page.getByRole("dialog", { name: "Collision" });
+  await dialog.getByText(/^With the shape error 20\.0 mm are kept/).waitFor();
+  for (const [name, mm] of [
+    ["Registration", "3.5"],
+    ["Twin", "1.5"],
+  ] as const) {
+    // What the field is about stands beside it, not only in the name that is read aloud.
+    await dialog.getByText(name, { exact: true }).waitFor();
+    await dialog.getByLabel(name).fill(mm);
+    await dialog.getByLabel(name).press("Enter");
+  }
+  await dialog.getByText(/^With the shape error 25\.0 mm are kept/).waitFor();
+  await page.screenshot({ path: picture("collision-errors") });
+  const errors = () => page.evaluate(() => window.twincell.stores.cellStore.getState().document?.errors);
+  expect(await errors()).toEqual({ registration_m: 0.0035, twin_m: 0.0015 });
+  await dialog.getByRole("button", { name: "Close" }).click();
+  await dialog.waitFor({ state: "hidden" });
+  await page.keyboard.press("Control+z");
+  expect((await errors())?.twin_m ?? 0).toBe(0);
+  expect(problems).toEqual([]);
+});

@@ -249,3 +249,47 @@ test("a red program asks before it runs: what is wrong is named and shown, it st
   await page.waitForFunction(() => !window.twincell.stores.controlStore.getState().running, null, { timeout: 60_000 });
   expect(problems).toEqual([]);
 });
+
+test("before a red program goes to a robot that is no virtual one, RUN is typed; before that the button does nothing", async () => {
+  const { page, problems } = await studio.open();
+  await opened(
+    page,
+    withSteps(steps => [...steps.slice(0, 1), to("far", "Far point", 1.9, 0, 0.5), ...steps.slice(1)]),
+  );
+  await page.getByRole("combobox", { name: "Connection" }).click();
+  await page.getByRole("option", { name: "Virtual: Stäubli CS7 (V+)" }).click();
+  await page.waitForFunction(
+    () => window.twincell.stores.stationStore.getState().stations[0]?.link.state === "open",
+    null,
+    { timeout: 60_000 },
+  );
+  await judged(page);
+  const question = page.getByRole("dialog", { name: "The check is red" });
+  const anyway = question.getByRole("button", { name: "Run all the same" });
+  await page.evaluate(() => window.twincell.run("run.start"));
+  await question.waitFor();
+  expect(await question.getByLabel("Type RUN").count()).toBe(0);
+  expect(await anyway.isEnabled()).toBe(true);
+  await question.getByRole("button", { name: "Do not run" }).click();
+  // No real controller stands beside this test: the virtual one is told apart by this mark alone.
+  await page.evaluate(() => {
+    const { stationStore } = window.twincell.stores;
+    stationStore.setState({ stations: stationStore.getState().stations.map(each => ({ ...each, virtual: false })) });
+  });
+  await page.evaluate(() => window.twincell.run("run.start"));
+  await question.getByText(/^A real robot moves: /).waitFor();
+  expect(await anyway.isDisabled()).toBe(true);
+  await question.getByLabel("Type RUN").fill("run");
+  expect(await anyway.isDisabled()).toBe(true);
+  await question.getByLabel("Type RUN").fill("RUN");
+  await page.screenshot({ path: picture("run-typed") });
+  expect(await page.evaluate(() => window.twincell.stores.stationStore.getState().stations[0]!.running)).toBe(false);
+  await anyway.click();
+  await question.waitFor({ state: "hidden" });
+  // The far point cannot be reached: the connection refuses the program, and the robot stands.
+  await page
+    .getByText(/cannot be reached|reach/i)
+    .first()
+    .waitFor();
+  expect(problems).toEqual([]);
+});

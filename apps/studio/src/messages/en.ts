@@ -806,6 +806,9 @@ export const en = {
     show: "Show",
     leave: "Do not run",
     anyway: "Run all the same",
+    typed: "RUN",
+    type: (robots: string) => `A real robot moves: ${robots}. Type RUN to run it all the same.`,
+    typeHere: "Type RUN",
   },
   run: {
     title: "Run",

@@ -8,6 +8,10 @@ export interface RunQuestion {
    */
   readonly kind: "checking" | "red" | "unchecked";
   readonly sentence: string;
+  /** Connected robots that it would move. */
+  readonly ids: readonly string[];
+  /** Names of the robots that would move and are no virtual ones: for them the answer is typed. */
+  readonly real: readonly string[];
   /** Begins it all the same, in spite of the findings of these codes: a connected robot takes it for no others. */
   readonly proceed: (despite: readonly string[]) => void;
 }

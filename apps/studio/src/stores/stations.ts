@@ -5,7 +5,7 @@ import { createStore } from "zustand/vanilla";
 /** Where the host of a station runs: in a worker of this page, or on the server that served it. */
 export type ServerAddress = "page" | "server";
 
-/** Another controller of the cell, as slowly as people read. Its joint angles are in `live/stations.ts`. */
+/** Another controller of the cell, as slowly as people read. Its joint angles are in `runtime/robot/stations.ts`. */
 export interface StationState extends ConnectionInfo {
   readonly place: ServerAddress;
   /** Where its robot is drawn. */
@@ -21,7 +21,7 @@ export interface StationState extends ConnectionInfo {
   readonly plan_rad: number | null;
   readonly command_rad: number | null;
   readonly running: boolean;
-  /** Whether its ghost is shown, and how. Its angles are in `live/stations.ts`. */
+  /** Whether its ghost is shown, and how. Its angles are in `runtime/robot/stations.ts`. */
   readonly ghost: "none" | "free" | "blocked";
   /** The first thing in its way ahead, with the time to come; "" while the way is free. */
   readonly foreseen: string;

@@ -11,3 +11,4 @@ export * from "./library/index.ts";
 export * from "./catalogue/index.ts";
 export * from "./shapes/index.ts";
 export * from "./identity.ts";
+export * from "./ready.ts";

@@ -40,16 +40,20 @@ function Errors() {
     <fieldset className="collide-errors">
       <legend className="label">{words.collide.errors}</legend>
       {(["registration_m", "twin_m"] as const).map(which => (
-        <NumberField
-          key={which}
-          label={words.collide.errorNames[which]}
-          quantity="length"
-          value={errors?.[which] ?? 0}
-          min={0}
-          max={0.5}
-          decimals={1}
-          onChange={value_m => set(which, value_m)}
-        />
+        <div key={which} className="stack labelled">
+          <span className="small muted" aria-hidden>
+            {words.collide.errorNames[which]}
+          </span>
+          <NumberField
+            label={words.collide.errorNames[which]}
+            quantity="length"
+            value={errors?.[which] ?? 0}
+            min={0}
+            max={0.5}
+            decimals={1}
+            onChange={value_m => set(which, value_m)}
+          />
+        </div>
       ))}
       <p className="small muted">{words.collide.errorsSum(showNumber(total_m, "length", 1))}</p>
     </fieldset>

@@ -66,16 +66,20 @@ function Body({ open: { demonstration, dropped, filtered, options } }: { readonl
       </dl>
       <div className="demonstration-options">
         {(["rest_m", "straight_m"] as const).map(which => (
-          <NumberField
-            key={which}
-            label={words.demonstration.options[which]}
-            quantity="length"
-            value={options[which]}
-            min={0.0001}
-            max={0.1}
-            decimals={1}
-            onChange={value_m => refilter({ [which]: value_m })}
-          />
+          <div key={which} className="stack labelled">
+            <span className="small muted" aria-hidden>
+              {words.demonstration.options[which]}
+            </span>
+            <NumberField
+              label={words.demonstration.options[which]}
+              quantity="length"
+              value={options[which]}
+              min={0.0001}
+              max={0.1}
+              decimals={1}
+              onChange={value_m => refilter({ [which]: value_m })}
+            />
+          </div>
         ))}
       </div>
       <Segments<FilterOptions["curves"]>

@@ -12,7 +12,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
   const drivers = useMemo(() => DRIVER_KINDS.filter(kind => robotsOf(kind).some(({ id }) => id === robot.id)), [robot]);
   return (
     <section className="robots-details stack" aria-label={robot.name} aria-live="polite">
-      <Picture robot={robot} />
+      <Picture robot={robot} width={360} height={200} />
       <h3>{robot.name}</h3>
       {robot.madeUpGeometry && (
         <p className="export-proof">

@@ -124,7 +124,7 @@ function Open() {
                   checked={each.id === robot?.id}
                   onChange={() => setChosen(each.id)}
                 />
-                <Picture robot={each} />
+                <Picture robot={each} width={56} height={56} />
                 <span className="robot-words">
                   <b>{each.name}</b>
                   <span className="dim small">

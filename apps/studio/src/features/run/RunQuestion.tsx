@@ -1,3 +1,4 @@
+import { useState } from "react";
 import { useStore } from "zustand";
 import { leaveRunQuestion, seenFindings } from "../../runtime/run/ask-before-run.ts";
 import { cellStore } from "../../stores/cell.ts";
@@ -36,6 +37,9 @@ export default function RunQuestion() {
     return found ? stepWords(found.step, found.index) : id;
   };
   const [first] = cards;
+  const real = question?.real ?? [];
+  const [typed, setTyped] = useState("");
+  if (!open && typed !== "") setTyped("");
   return (
     <Frame
       open={open}
@@ -47,6 +51,7 @@ export default function RunQuestion() {
           <>
             <button
               className="btn danger"
+              disabled={real.length > 0 && typed.trim() !== words.runQuestion.typed}
               onClick={() => {
                 leaveRunQuestion();
                 question?.proceed(seenFindings());
@@ -87,6 +92,20 @@ export default function RunQuestion() {
           {cards.length > NAMED && <p className="small muted">{words.runQuestion.more(cards.length - NAMED)}</p>}
           <p className="small muted">{words.runQuestion.guard}</p>
         </div>
+      )}
+      {open && question.kind !== "checking" && real.length > 0 && (
+        <label className="stack run-typed">
+          <span>{words.runQuestion.type(real.join(", "))}</span>
+          <span className="field text">
+            <input
+              aria-label={words.runQuestion.typeHere}
+              autoComplete="off"
+              spellCheck={false}
+              value={typed}
+              onChange={event => setTyped(event.currentTarget.value)}
+            />
+          </span>
+        </label>
       )}
     </Frame>
   );

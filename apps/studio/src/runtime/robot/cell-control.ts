@@ -237,10 +237,15 @@ export function startCellControl(): void {
       run: () => {
         // A vendor's text runs as it stands, with its breakpoints, where it is seen.
         if (textOf(cellStore.getState().document)) viewStore.setState({ mode: "run" });
-        else
-          askBeforeRun(despite => {
-            void startRun(undefined, despite);
-          });
+        else {
+          const { station } = connectionStore.getState();
+          askBeforeRun(
+            despite => {
+              void startRun(undefined, despite);
+            },
+            station === null ? [] : [station],
+          );
+        }
       },
     },
     {

@@ -6,6 +6,7 @@ import { dialogStore, openDialog } from "../../stores/dialogs.ts";
 import { showDocument } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
+import { stationStore, type StationState } from "../../stores/stations.ts";
 import { stopEverything } from "../../stores/stop.ts";
 import { askBeforeRun, leaveRunQuestion, seenFindings, startRunQuestions } from "./ask-before-run.ts";
 
@@ -85,6 +86,18 @@ test("a verdict of what was there before the last change does not count: the che
   askBeforeRun(begin);
   playStore.setState({ stale: false, checking: null, verdict: verdictOf(false) });
   expect([begun, asked()]).toEqual([1, "red"]);
+});
+
+test("robots that are no virtual ones are named in the question, also after the check was waited for", () => {
+  const station = (id: string, virtual: boolean): StationState => ({ id, name: `Cell ${id}`, virtual }) as StationState;
+  stationStore.setState({ stations: [station("a", true), station("b", false)] });
+  playStore.setState({ stale: true, checking: 0.5, trouble: null, verdict: null });
+  askBeforeRun(begin, ["a", "b"]);
+  playStore.setState({ stale: false, checking: null, verdict: verdictOf(false) });
+  expect([asked(), runQuestionStore.getState().question?.real]).toEqual(["red", ["Cell b"]]);
+  askBeforeRun(begin, ["a"]);
+  expect(runQuestionStore.getState().question?.real).toEqual([]);
+  stationStore.setState({ stations: [] });
 });
 
 test("STOP while the check is waited for takes the start away: a green check afterwards moves nothing", () => {

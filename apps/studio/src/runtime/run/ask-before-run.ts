@@ -5,6 +5,7 @@ import { programOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationLive } from "../robot/stations.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
+import { stationOf } from "../../stores/stations.ts";
 import { onStop } from "../../stores/stop.ts";
 
 /**
@@ -13,8 +14,9 @@ import { onStop } from "../../stores/stop.ts";
  * without steps has nothing to be checked.
  *
  * @param proceed  is given the codes of the red findings that the person has seen and goes on in spite of.
+ * @param ids      connected robots that it would move.
  */
-export function askBeforeRun(proceed: (despite: readonly string[]) => void): void {
+export function askBeforeRun(proceed: (despite: readonly string[]) => void, ids: readonly string[] = []): void {
   const { stale, checking, verdict, trouble } = playStore.getState();
   const program = programOf(cellStore.getState().document);
   if (program?.steps.length === 0 || (!stale && verdict?.ok === true)) {
@@ -22,7 +24,7 @@ export function askBeforeRun(proceed: (despite: readonly string[]) => void): voi
     return;
   }
   const kind = stale ? "checking" : verdict ? "red" : "unchecked";
-  runQuestionStore.setState({ question: { kind, sentence: trouble ?? "", proceed } });
+  runQuestionStore.setState({ question: { kind, sentence: trouble ?? "", ids, real: realAmong(ids), proceed } });
   openDialog("run-question");
   // One that was cancelled begins anew.
   if (stale && checking === null) runCommand("check.now");
@@ -34,9 +36,15 @@ export function askBeforeRun(proceed: (despite: readonly string[]) => void): voi
  */
 export function askBeforeSending(ids: readonly string[], proceed: (despite: readonly string[]) => void): void {
   const robot = cellStore.getState().document?.robot.id;
-  if (ids.some(id => stationLive(id)?.robot.id === robot)) askBeforeRun(proceed);
+  if (ids.some(id => stationLive(id)?.robot.id === robot)) askBeforeRun(proceed, ids);
   else proceed([]);
 }
+
+const realAmong = (ids: readonly string[]): string[] =>
+  ids.flatMap(id => {
+    const station = stationOf(id);
+    return station && !station.virtual ? [station.name] : [];
+  });
 
 /** Codes of what makes the check red that is shown: who goes on all the same has seen these. */
 export function seenFindings(): readonly string[] {
@@ -60,7 +68,7 @@ export function startRunQuestions(): () => void {
       const { question } = runQuestionStore.getState();
       if (stale || !before.stale || question?.kind !== "checking") return;
       leaveRunQuestion();
-      askBeforeRun(question.proceed);
+      askBeforeRun(question.proceed, question.ids);
     }),
     dialogStore.subscribe(({ open }) => {
       if (open !== "run-question") leaveRunQuestion();
