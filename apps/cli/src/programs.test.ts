@@ -165,6 +165,52 @@ describe("post, run, parse", () => {
       at = found;
     }
   });
+  test("M-51 M-52 M-53 G-10 three joint motions of a KR 6 are written as the published list PTP_AXIS, byte for byte, proven; anything else is refused with the step", () => {
+    const path = join(folder, "kuka.json");
+    const { version } = JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as { version: number };
+    // Figure 9 of the paper [deg], its lines unwrapped.
+    const points = [
+      [26.5651, 3.46629, 34.4992, 220.355, 43.6572, 149.288],
+      [-42.605, -10.3901, 19.0239, -62.5439, 3.33649, 45.7593],
+      [37.8414, -8.14868, -2.29048, 57.5508, -7.09465, -42.9173],
+    ];
+    const steps: Record<string, unknown>[] = points.map((q, i) => ({
+      id: `p${i + 1}`,
+      type: "move",
+      path: "ptp",
+      target: { q: q.map(degrees => (degrees * Math.PI) / 180) },
+      speed: { ratio: 1 },
+      blend_m: 0,
+    }));
+    const program = { format: "twincell.program", version, name: "List", robot: "kuka_kr6_2", steps };
+    const rest = { tools: {}, frames: {}, pallets: {}, groups: {}, signals: {}, routines: {} };
+    writeFileSync(path, JSON.stringify({ ...program, ...rest }));
+    const to = join(folder, "kuka");
+    const { code, out, err } = twincell("post", path, "--to", "krl", "--form", "axis-list", "-o", to);
+    expect({ code, err }).toEqual({ code: 0, err: "" });
+    expect(JSON.parse(out)).toMatchObject({ warnings: [], proof: [{ file: "PTP_AXIS.src" }] });
+    const axes = (name: string): string[] => [1, 2, 3, 4, 5, 6].map(axis => `$${name}_AXIS[${axis}] = 100`);
+    expect(readFileSync(join(to, "PTP_AXIS.src"), "utf8")).toBe(
+      [
+        "DEF PTP_AXIS()",
+        ...axes("VEL"),
+        "",
+        ...axes("ACC"),
+        "",
+        "PTP {AXIS:A1 26.5651, A2 3.46629,A3 34.4992, A4 220.355, A5 43.6572, A6 149.288}",
+        "PTP {AXIS:A1 -42.605, A2 -10.3901,A3 19.0239, A4 -62.5439, A5 3.33649, A6 45.7593}",
+        "PTP {AXIS:A1 37.8414, A2 -8.14868,A3 -2.29048, A4 57.5508, A5 -7.09465, A6 -42.9173}",
+        "END",
+        "",
+      ].join("\r\n"),
+    );
+    writeFileSync(path, JSON.stringify({ ...program, ...rest, steps: [...steps, { id: "w", type: "wait", s: 1 }] }));
+    const refused = twincell("post", path, "--to", "krl", "--form", "axis-list", "-o", to);
+    expect(refused.code).toBe(1);
+    expect(refused.err).toContain("Step w: ");
+    expect(twincell("post", path, "--to", "krl", "--form", "song", "-o", to).err).toContain("Forms: axis-list.");
+  });
+
   test("parse gives a program that simulates to the same end", () => {
     const text = join(folder, "post", "edge_trace.v2");
     const parsed = twincell("parse", text, "--robot", "staubli_rx90l", "--dialect", "v-plus");

@@ -234,6 +234,19 @@ export interface LineShapes {
 }
 
 /**
+ * Another text that the same controller takes, which holds less than its programs do: a list of positions, for
+ * instance.
+ */
+export interface TextForm {
+  readonly id: string;
+  readonly name: string;
+  readonly emit: (program: Program, robot: Robot) => Emitted;
+  /** The program as this text says it: what is left out of it is as the controller takes it then. */
+  readonly said: (program: Program) => Program;
+  readonly resolution: Resolution;
+}
+
+/**
  * A robot language. One folder each; `cannot` is shown to the user as it stands.
  *
  * Programs count in the world of the cell, controllers from the robot: `worldFromBase` says where the robot stands.
@@ -254,6 +267,7 @@ export interface Dialect {
    */
   runnable?(files: readonly EmittedFile[]): EmittedFile;
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
+  readonly forms?: readonly TextForm[];
   /** Dialects with `lines` leave out what they do not understand when they are asked to. */
   readonly lines?: LineShapes;
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">, options?: ReadOptions): Parsed;

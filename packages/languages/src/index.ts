@@ -1,4 +1,4 @@
-import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
+import { emptyProgram, type Dialect, type Robot, type TextForm } from "@twincell/core";
 import { fanucLs } from "./fanuc-ls/index.ts";
 import { inform } from "./inform/index.ts";
 import { kawasakiAs } from "./kawasaki-as/index.ts";
@@ -28,7 +28,7 @@ export { pacScript } from "./pacscript/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { spel } from "./spel/index.ts";
 export { urScript } from "./urscript/index.ts";
-export { emitPtpAxis, krl } from "./krl/index.ts";
+export { krl } from "./krl/index.ts";
 export { val3 } from "./val3/index.ts";
 export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
@@ -52,6 +52,19 @@ export const DIALECTS: readonly Dialect[] = [
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);
+/** The dialect written in one of its forms; undefined where it has none of that id. */
+export function dialectInForm(dialect: Dialect, id: string): (Dialect & { readonly form: TextForm }) | undefined {
+  const form = dialect.forms?.find(each => each.id === id);
+  return (
+    form && {
+      ...dialect,
+      form,
+      resolution: form.resolution,
+      runnable: files => files[0]!,
+      emit: (program, robot) => form.emit(program, robot),
+    }
+  );
+}
 export { vendorTables } from "./vendors.ts";
 
 /** The dialects that a robot's controller understands: those that do not refuse even an empty program for it. */

@@ -1110,6 +1110,8 @@ export const en = {
   export: {
     title: "Export",
     dialect: "Language",
+    form: "Form of the text",
+    wholeProgram: "Program",
     files: "Files",
     text: "Text",
     warnings: "Notes",

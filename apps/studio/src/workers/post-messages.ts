@@ -6,6 +6,8 @@ import type { Written } from "../runtime/run/written-program.ts";
 export interface ToPoster {
   readonly id: number;
   readonly dialect: string | null;
+  /** Another form of its text; null for its programs. */
+  readonly form: string | null;
   readonly program: Program;
   readonly robot: string;
   readonly worldFromBase: Pose<"world", "base">;

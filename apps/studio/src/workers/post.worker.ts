@@ -1,6 +1,6 @@
 import "./know-robots.ts";
 import { robotById } from "@twincell/core";
-import { dialectById, proveText, runnableFile } from "@twincell/languages";
+import { dialectById, dialectInForm, proveText, runnableFile } from "@twincell/languages";
 import { writeProgram } from "../runtime/run/written-program.ts";
 import type { FromPoster, ToPoster } from "./post-messages.ts";
 
@@ -10,9 +10,11 @@ const answer = (message: FromPoster): void => {
 
 addEventListener(
   "message",
-  ({ data: { id, dialect: name, program, robot: robotId, worldFromBase, prove } }: MessageEvent<ToPoster>) => {
+  ({ data: { id, dialect: name, form, program, robot: robotId, worldFromBase, prove } }: MessageEvent<ToPoster>) => {
     try {
-      const dialect = name === null ? null : dialectById(name);
+      const whole = name === null ? null : dialectById(name);
+      const inForm = whole && form !== null ? dialectInForm(whole, form) : undefined;
+      const dialect = inForm ?? whole;
       const robot = robotById(robotId);
       if (dialect === undefined || !robot) {
         answer({ kind: "trouble", id, sentence: `There is no language “${name}” for the robot “${robotId}”.` });
@@ -26,7 +28,10 @@ addEventListener(
       answer({
         kind: "proven",
         id,
-        proof: dialect && runnable ? proveText(dialect, runnable, written.program, robot, worldFromBase) : null,
+        proof:
+          dialect && runnable
+            ? proveText(dialect, runnable, inForm?.form.said(written.program) ?? written.program, robot, worldFromBase)
+            : null,
       });
     } catch (problem) {
       answer({

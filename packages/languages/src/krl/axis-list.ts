@@ -1,4 +1,4 @@
-import type { Emitted, MoveStep, Program, Robot } from "@twincell/core";
+import type { Emitted, MoveStep, Program, Robot, TextForm } from "@twincell/core";
 import { axisConvention } from "./robots.ts";
 import { axisValues } from "./write/location.ts";
 import { TextWriter } from "./write/text-writer.ts";
@@ -14,7 +14,19 @@ const PERCENT = 100;
  * one PTP with inline axis values per step. It is a format of its own: it holds joint motions to taught joint angles,
  * and a program with anything else is refused.
  */
-export function emitPtpAxis(program: Program, robot: Robot): Emitted {
+export const axisList: TextForm = {
+  id: "axis-list",
+  name: "PTP_AXIS list",
+  emit: emitPtpAxis,
+  said: program => ({
+    ...program,
+    steps: program.steps.map(step => (step.type === "move" ? { ...step, speed: { ratio: 1 }, blend_m: 0 } : step)),
+  }),
+  // Half of the sixth digit of an angle of three digits before the point, at the reach of a large arm.
+  resolution: { position_m: 5e-5, angle_rad: 2e-5 },
+};
+
+function emitPtpAxis(program: Program, robot: Robot): Emitted {
   const convention = axisConvention(robot);
   if (convention === undefined)
     return {

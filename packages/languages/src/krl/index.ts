@@ -1,11 +1,10 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
+import { axisList } from "./axis-list.ts";
 import { CANNOT, emitKrl } from "./emit.ts";
 import { interpretKrl } from "./interpret.ts";
 import { parseKrl } from "./parse.ts";
 import { LINES } from "./lines.ts";
-
-export { emitPtpAxis } from "./axis-list.ts";
 
 /** The module and its data list, one behind the other: what the controller loads together. */
 function asOne(files: readonly EmittedFile[]): EmittedFile {
@@ -26,6 +25,7 @@ export const krl: Dialect = skippingDialect({
   // $VEL_AXIS is a whole number of percent.
   resolution: { ratio: 0.005, leastRatio: 0.01 },
   runnable: files => asOne(files),
+  forms: [axisList],
   emit: (program, robot, worldFromBase = identity()) => emitKrl(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseKrl(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretKrl(text, robot, worldFromBase),

@@ -19,10 +19,12 @@ import {
   type Step,
 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { emitPtpAxis, krl, proveText, runnableFile } from "../index.ts";
+import { dialectInForm, krl, proveText, runnableFile } from "../index.ts";
 import { readInTime } from "../testing/reading-time.ts";
 
 const robot = robotById("kuka_kr6_2")!;
+const axisList = dialectInForm(krl, "axis-list")!;
+const emitPtpAxis = axisList.emit;
 // biome-ignore format: table of numbers
 const POINTS = [
   [26.5651, 3.46629, 34.4992, 220.355, 43.6572, 149.288],
@@ -112,6 +114,19 @@ describe("M-50 M-51 M-52 M-53 G-10 the list of axis positions", () => {
       expect(q_deg(step as MoveStep)).toEqual(POINTS[i]);
     }
     expect(krl.parse(FILE, robot)).toMatchObject({ kind: "parsed", warnings: [] });
+  });
+
+  test("the list is proven by executing it: all steps within what six digits say, at full speed whatever was taught", () => {
+    const taught = program(POINTS.map((q, i) => move(`p${i}`, q, { speed: { ratio: 0.3 } })));
+    const answer = axisList.emit(taught, robot);
+    expect(answer).toMatchObject({
+      kind: "emitted",
+      warnings: ["The list moves every axis at 100 %, whatever speed was taught."],
+    });
+    const file = runnableFile(axisList, answer.kind === "emitted" ? answer.files : [])!;
+    expect(proveText(axisList, file, axisList.form.said(taught), robot)).toMatchObject({ kind: "proven" });
+    // As taught it would be told to be wrong: the speeds are others.
+    expect(proveText(axisList, file, taught, robot).kind).not.toBe("proven");
   });
 
   test("anything but a joint motion to joint angles is refused at its step", () => {

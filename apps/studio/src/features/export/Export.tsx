@@ -20,6 +20,9 @@ import { manifestOf } from "./manifest.ts";
 import { zipped } from "./zip.ts";
 import "./export.css";
 
+/** The programs of a language, and no other form of text. */
+const WHOLE = "program";
+
 /** The program in the controller's own language, proven by reading it back. */
 export default function Export() {
   const open = useStore(dialogStore, state => state.open);
@@ -41,11 +44,14 @@ function Body() {
   const dialect = useStore(languageStore, state => languageOf(robot, state));
   const id = dialect?.id ?? "";
   const [chosen, setChosen] = useState(0);
+  const forms = dialect?.forms ?? [];
+  const [wanted, setForm] = useState(WHOLE);
+  const form = forms.some(each => each.id === wanted) ? wanted : WHOLE;
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : ""));
   useEffect(() => {
     postStore.setState({ emitted: null, proof: null });
-    postProgram(true);
-  }, [program, id]);
+    postProgram(true, form === WHOLE ? null : form);
+  }, [program, id, form]);
   if (!program || program.steps.length === 0) return <p className="muted">{words.run.nothing}</p>;
   if (!robot || !dialect) return <p className="muted">{words.export.noLanguage(robot?.name ?? "")}</p>;
   const files = emitted?.kind === "emitted" ? emitted.files : [];
@@ -76,6 +82,18 @@ function Body() {
       <div className="export-side stack">
         <span className="dim small">{words.export.dialect}</span>
         <LanguageChoice robot={robot} />
+        {forms.length > 0 && (
+          <Segments
+            label={words.export.form}
+            className="seg small-seg"
+            value={form}
+            onChange={setForm}
+            options={[
+              { value: WHOLE, words: words.export.wholeProgram },
+              ...forms.map(each => ({ value: each.id, words: each.name })),
+            ]}
+          />
+        )}
         <p className="small muted">
           {dialect.maturity === "proven" ? (
             words.export.proven

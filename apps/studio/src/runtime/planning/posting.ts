@@ -26,11 +26,18 @@ function hired(): Worker {
   return worker;
 }
 
-function ask(program: Program, document: CellDocument, prove: boolean, answered: Answered): number {
+function ask(
+  program: Program,
+  document: CellDocument,
+  form: string | null,
+  prove: boolean,
+  answered: Answered,
+): number {
   const id = ++count;
   const message: ToPoster = {
     id,
     dialect: theLanguage()?.id ?? null,
+    form,
     program,
     robot: document.robot.id,
     worldFromBase: document.robot.worldFromBase,
@@ -47,7 +54,7 @@ function ask(program: Program, document: CellDocument, prove: boolean, answered:
 /** The program as it is to be run, written away from the page. Rejects with what kept it from being written. */
 export function writtenProgram(program: Program, document: CellDocument): Promise<Written> {
   return new Promise((resolve, reject) => {
-    ask(program, document, false, answer => {
+    ask(program, document, null, false, answer => {
       if (answer.kind === "written") resolve(answer.written);
       else if (answer.kind === "trouble") reject(new Error(answer.sentence));
     });
@@ -59,8 +66,10 @@ const NOTHING: PostState = { working: false, emitted: null, proof: null, trouble
 /**
  * Shows the present program in the chosen language, written and where wanted proven away from the page; the answer
  * comes through the store.
+ *
+ * @param form  another text that its controller takes; null for a program of the language.
  */
-export function postProgram(prove: boolean): void {
+export function postProgram(prove: boolean, form: string | null = null): void {
   const { document } = cellStore.getState();
   const program = programOf(document);
   if (!document || !program || !theLanguage() || program.steps.length === 0) {
@@ -69,7 +78,7 @@ export function postProgram(prove: boolean): void {
     return;
   }
   postStore.setState({ working: true });
-  const id = (shown = ask(program, document, prove, answer => {
+  const id = (shown = ask(program, document, form, prove, answer => {
     if (id !== shown) return;
     if (answer.kind === "written")
       postStore.setState({ working: prove, emitted: answer.written.emitted, proof: null, trouble: null });
