@@ -62,6 +62,26 @@ test("check --as-text says what is wrong with its file and line, and ends with 1
   expect(err).toContain(`${join(bad, "weld.src")}, line 4: `);
 });
 
+test("check --as-text names on stderr what it shows and does not execute, with file and line, and judges the rest", () => {
+  const path = join(folder, "lamp.script");
+  const lines = [
+    "def job():",
+    "  thread counter():",
+    "    while (True):",
+    "      sync()",
+    "    end",
+    "  end",
+    "  run counter()",
+    "  movej([0.1, -1.2, 1.3, -1.6, -1.5, 0.2], a=1.4, v=1.05)",
+    "end",
+    "job()",
+  ];
+  writeFileSync(path, `${lines.join("\n")}\n`);
+  const { code, out, err } = twincell("check", path, "--as-text", "--robot", "ur10e");
+  expect(err).toContain(`${path}, line 2: Thread counter is shown, not executed: it does not move the robot.`);
+  expect([code, (JSON.parse(out) as Judged).steps.map(({ line }) => line)]).toEqual([0, [8]]);
+});
+
 test("check --as-text judges the text that a cell keeps, in that cell and on its robot", () => {
   const files = [
     textFileOf("weld.src", Buffer.from(SRC, "latin1")),

@@ -35,7 +35,11 @@ export async function servePendant({ studio, host, port, ...options }: ServePend
   });
   if (problem)
     return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
-  const socket = openRoutes(server, [connectionRoute(createPendantHost(options))], request => isServed(hosts, request));
+  const socket = openRoutes(server, [connectionRoute(createPendantHost(options))], {
+    enters: request => isServed(hosts, request),
+    stays: () => true,
+    scheduler: options.scheduler,
+  });
   return {
     kind: "served",
     url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,

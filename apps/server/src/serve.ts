@@ -143,7 +143,11 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const socket = openRoutes(
     server,
     [connectionRoute(stations, gate.nameOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
-    request => isServed(hosts, request) && gate.socket(request),
+    {
+      enters: request => isServed(hosts, request) && gate.socket(request),
+      stays: gate.stays,
+      scheduler: nodeScheduler,
+    },
   );
   return {
     url: `${scheme}://127.0.0.1:${port}/${query}`,

@@ -103,6 +103,10 @@ async function checkText(options: Given, chosen: RobotToRun | undefined, margin_
     inputs: inputsFrom(options.text("inputs")),
   });
   if (executed.kind === "not-understood") throw projectFault(project, executed.faults);
+  for (const { line, sentence } of executed.notExecuted) {
+    const place = project.placeOf(line);
+    process.stderr.write(`twincell: ${place.path}, line ${place.line}: ${sentence}\n`);
+  }
   if (executed.cut !== undefined) process.stderr.write(`twincell: ${executed.cut}\n`);
   const solids = chosen?.solids ?? (() => linkSolids(robot));
   const { verdict } = checkProgram(executed.program, robot, {

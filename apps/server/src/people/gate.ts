@@ -11,6 +11,8 @@ export interface Gate {
   enter(request: IncomingMessage, access: ApiRoute["access"]): Entered;
   /** Whether that request may open a socket. */
   socket(request: IncomingMessage): boolean;
+  /** Whether a socket that was opened by that request may stay open: its token was not taken back and has not ended. */
+  stays(request: IncomingMessage): boolean;
   /** The name of the token that a request carries, or null. */
   nameOf(request: IncomingMessage): string | null;
 }
@@ -108,6 +110,10 @@ export function createGate({ access, tokens, audit, scheduler, onTrouble }: Gate
           access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome"
         );
       return enter(request, path === SOCKETS.stream ? "look" : "command").kind === "in";
+    },
+    stays(request) {
+      const given = bearer(request);
+      return !isToken(given) || tokens(given).kind === "known";
     },
     nameOf(request) {
       const given = bearer(request);

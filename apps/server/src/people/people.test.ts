@@ -1,9 +1,11 @@
 import { spawnSync } from "node:child_process";
+import { once } from "node:events";
 import { appendFileSync, mkdtempSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { emptyProgram } from "@twincell/core";
+import { SOCKETS } from "@twincell/protocol";
 import { afterEach, expect, test } from "vitest";
 import { WebSocket } from "ws";
 import { addToken, auditFile, openAuditLog, readAudit, removeToken, serve, type Served } from "../index.ts";
@@ -101,6 +103,30 @@ test("by socket a viewer's token opens the read-only stream and not the one that
   expect(await opens(operator, "/stations")).toBe(true);
   expect(await opens("twincell_forged", "/api/v1/stream")).toBe(false);
 });
+
+test("a token that is taken back, and one that ends, closes the sockets it opened within two seconds; others stay", async () => {
+  const data = folder();
+  const served = await server(data);
+  const soon = addToken(data, "Soon", "viewer", new Date(Date.now() + 1500))!;
+  const tokens = [addToken(data, "Ada", "operator", null)!, soon, addToken(data, "Bea", "operator", null)!];
+  const url = served.url.replace(/^http/, "ws");
+  const sockets = await Promise.all(
+    tokens.map(async (token, i) => {
+      const path = i === 1 ? SOCKETS.stream : SOCKETS.commands;
+      const socket = new WebSocket(new URL(path, url), { headers: { authorization: `Bearer ${token}` } });
+      open.push(socket);
+      await once(socket, "open");
+      return socket;
+    }),
+  );
+  const [ada, ended, bea] = sockets as [WebSocket, WebSocket, WebSocket];
+  expect(removeToken(data, "Ada")).toBe(true);
+  const began_ms = Date.now();
+  const codes = await Promise.all([once(ada, "close"), once(ended, "close")]);
+  expect(codes.map(([code]) => code as number)).toEqual([4401, 4401]);
+  expect(Date.now() - began_ms).toBeLessThan(3500);
+  expect(bea.readyState).toBe(WebSocket.OPEN);
+}, 20_000);
 
 test("what people do is in the log under the names of their tokens, the refused too; nobody commands under another's name", async () => {
   const data = folder();

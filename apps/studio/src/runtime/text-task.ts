@@ -40,6 +40,7 @@ export function textTask(task: ToTextWorker): FromTextWorker {
     places: [...executed.lines].map(([step, line]) => [step, at(line)] as const),
     findings: [
       ...executed.skipped.map(({ line, sentence }): TextFinding => ({ ...at(line), verdict: "warn", sentence })),
+      ...executed.notExecuted.map(({ line, sentence }): TextFinding => ({ ...at(line), verdict: "warn", sentence })),
       ...(executed.cut === undefined || cut === null
         ? []
         : [{ ...at(Number(cut[1])), verdict: "warn" as const, sentence: executed.cut }]),
