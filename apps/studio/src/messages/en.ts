@@ -1062,6 +1062,7 @@ export const en = {
     dropSays: "A cell, a program, a mesh or a recording",
     examples: "Examples",
     examplesSay: "Open as a copy. Your cells stay as they are.",
+    openExample: (name: string) => `Open the example ${name}`,
     open: (name: string) => `Open ${name}`,
     openNow: "Open now",
     rename: (name: string) => `Rename ${name}`,

@@ -1,12 +1,4 @@
-import {
-  conveyorPalletCell,
-  edgeTraceCell,
-  emptyCell,
-  isTextProgram,
-  saveDocument,
-  tracedCartonCell,
-  type CellDocument,
-} from "@twincell/project";
+import { emptyCell, EXAMPLES, isTextProgram, saveDocument, type CellDocument } from "@twincell/project";
 import { createStore } from "zustand/vanilla";
 import { openSaved } from "./catalogue.ts";
 import type { Keeper } from "./keeper.ts";
@@ -275,9 +267,7 @@ const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | 
 let examples: ReadonlySet<string> | null = null;
 function isExample(text: string): boolean {
   examples ??= new Set(
-    [edgeTraceCell(), tracedCartonCell(), conveyorPalletCell(), emptyCell()].map(example =>
-      saveDocument(inStep(example)),
-    ),
+    [...EXAMPLES.map(({ make }) => make()), emptyCell()].map(example => saveDocument(inStep(example))),
   );
   return examples.has(text);
 }

@@ -1,23 +1,12 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { parseProgram, serializeProgram } from "@twincell/core";
-import {
-  conveyorPalletCell,
-  edgeTraceCell,
-  openDocument,
-  recordedAsJoints,
-  saveDocument,
-  tracedCartonCell,
-} from "../index.ts";
+import { EXAMPLES, openDocument, recordedAsJoints, saveDocument, tracedCartonCell } from "../index.ts";
 
 const fileText = (path: string): string =>
   readFileSync(new URL(`../../../../examples/${path}`, import.meta.url), "utf8");
 
-test.each([
-  ["01-edge-trace", edgeTraceCell()],
-  ["02-traced-carton", tracedCartonCell()],
-  ["03-conveyor-pallet", conveyorPalletCell()],
-] as const)(
+test.each(EXAMPLES.map(({ id, make }) => [id, make()] as const))(
   "example %s is what its function makes and opens; after a change run scripts/write-examples.mjs",
   (name, cell) => {
     const text = fileText(`${name}/cell.json`);

@@ -3,3 +3,5 @@ export * from "./edge-trace.ts";
 export * from "./traced-carton.ts";
 export * from "./as-joints.ts";
 export * from "./conveyor-pallet.ts";
+export * from "./tasks.ts";
+export * from "./gallery.ts";

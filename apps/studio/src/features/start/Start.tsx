@@ -1,4 +1,4 @@
-import { conveyorPalletCell, edgeTraceCell, emptyCell, tracedCartonCell } from "@twincell/project";
+import { emptyCell, EXAMPLES } from "@twincell/project";
 import { robotById } from "@twincell/core";
 import { Plus, Upload } from "lucide-react";
 import { useEffect, useState } from "react";
@@ -15,7 +15,6 @@ import { CellCard } from "./CellCard.tsx";
 import { findCells } from "./list.ts";
 import "./start.css";
 
-const EXAMPLES = [edgeTraceCell, tracedCartonCell, conveyorPalletCell];
 const robotName = (id: string): string => {
   const robot = robotById(id);
   return robot ? shortName(robot) : id;
@@ -127,11 +126,18 @@ function Cells() {
             {words.cells.examples} <span className="muted small">{words.cells.examplesSay}</span>
           </h3>
           <div className="start-examples">
-            {EXAMPLES.map(make => {
+            {EXAMPLES.map(({ id, sentence, make }) => {
               const example = make();
               return (
-                <button key={example.name} className="btn" onClick={() => openExample(example)}>
-                  {example.name} <span className="muted small">{robotName(example.robot.id)}</span>
+                <button
+                  key={id}
+                  className="start-example"
+                  aria-label={words.cells.openExample(example.name)}
+                  onClick={() => openExample(example)}
+                >
+                  <b>{example.name}</b>
+                  <span className="muted small">{robotName(example.robot.id)}</span>
+                  <span className="small">{sentence}</span>
                 </button>
               );
             })}
