@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { addProgram, emptyCell, saveDocument, textFileOf } from "@twincell/project";
+import { zipSync } from "fflate";
 import { afterAll, expect, test } from "vitest";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
@@ -54,6 +55,38 @@ test("run and check --as-text find the .dat beside the .src, and take both files
       Math.abs(last.q[0]! + (30 / 180) * Math.PI) < 1e-6 || Math.abs(last.q[0]! - (30 / 180) * Math.PI) < 1e-6,
     ).toBe(true);
   }
+});
+
+test("an archive is a folder: its one program opens as it is, of several one is named by its path, a broken one is one sentence", () => {
+  const bytes = (text: string): Uint8Array => Buffer.from(text, "latin1");
+  const at = (name: string): string => join(folder, name);
+  writeFileSync(at("one.zip"), zipSync({ "KRC/R1/weld.src": bytes(SRC), "KRC/R1/weld.dat": bytes(DAT(30)) }));
+  const two = { "R1/weld.src": bytes(SRC), "R1/weld.dat": bytes(DAT(30)), "R1/other.src": bytes(SRC) };
+  writeFileSync(at("two.zip"), zipSync({ ...two, "am.ini": bytes("[Archive]") }));
+  writeFileSync(at("broken.zip"), "PK");
+  const inside = `${at("two.zip")}/R1/weld.src`;
+  for (const [path, file] of [
+    [at("one.zip"), `${at("one.zip")}/KRC/R1/weld.src`],
+    [inside, inside],
+  ] as const) {
+    const checked = twincell("check", path, "--as-text", ...ROBOT, "--dialect", "krl");
+    expect(checked).toMatchObject({ code: 0 });
+    const { steps } = JSON.parse(checked.out) as Judged;
+    expect(steps.map(step => [step.file, step.line])).toEqual([
+      [file, 2],
+      [file, 4],
+    ]);
+  }
+  expect(twincell("run", at("one.zip"), ...ROBOT, "--dialect", "krl", "--period", "0.5")).toMatchObject({ code: 0 });
+  // Files of no language, such as the list of the backup, are passed over.
+  const several = twincell("check", at("two.zip"), "--as-text", ...ROBOT);
+  expect(several).toMatchObject({ code: 2 });
+  expect(several.err).toContain(`${at("two.zip")} holds 2 programs.`);
+  expect(several.err).toContain(`${at("two.zip")}/R1/other.src`);
+  expect(twincell("check", `${inside}x`, "--as-text", ...ROBOT, "--dialect", "krl").err).toContain(
+    "There is no file R1/weld.srcx",
+  );
+  expect(twincell("check", at("broken.zip"), "--as-text", ...ROBOT, "--dialect", "krl")).toMatchObject({ code: 2 });
 });
 
 test("check --as-text says what is wrong with its file and line, and ends with 1", () => {

@@ -1,7 +1,6 @@
 /**
  * ABB's externally guided motion and Robot Web Services on the system's own sockets: our driver, and a client that
- * nobody here
- * wrote. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:
+ * nobody here wrote. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:
  *   pip install abb-robot-client==0.4.0
  */
 import { abbAdapter, createRealController, createVirtualAbb, type VirtualAbb } from "@twincell/controllers";

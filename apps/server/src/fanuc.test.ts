@@ -1,7 +1,7 @@
 /**
  * FANUC's Remote Motion Interface on the system's own sockets: our driver, and a client that nobody here wrote. The
- * Python that has
- * it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install fanuc-rmi==0.3.1
+ * Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:
+ *   pip install fanuc-rmi==0.3.1
  */
 import { createFanucAdapter, createRealController, createVirtualFanuc, type VirtualFanuc } from "@twincell/controllers";
 import { emptyProgram, robotById } from "@twincell/core";

@@ -1,7 +1,7 @@
 /**
  * RSI on the system's own sockets, against RSIPI 0.3.0 both ways: its client moves our virtual robot, and our driver
- * moves its
- * robot. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install RSIPI==0.3.0
+ * moves its robot. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:
+ *   pip install RSIPI==0.3.0
  */
 import {
   axisConfig,

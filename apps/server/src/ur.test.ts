@@ -1,9 +1,8 @@
 /**
  * Universal Robots on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has
- * them is named by
- * TWINCELL_PYTHON, or is the python3 of the path:
- *   pip install ur_rtde==1.6.5 urx==0.11.0, and UR's own RTDE client from its public
- * repository.
+ * them is named by TWINCELL_PYTHON, or is the python3 of the path:
+ *   pip install ur_rtde==1.6.5 urx==0.11.0
+ * and UR's own RTDE client from its public repository.
  */
 import { createRealController, createUrAdapter, createVirtualUr, type VirtualUr } from "@twincell/controllers";
 import { robotById } from "@twincell/core";

@@ -28,8 +28,8 @@ export const checkCommand: Command = {
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
 known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
 
-  --as-text       FILE is a vendor's program text, several of one program, a folder of them, or a cell whose selected program is a
-                  text: it is executed as its controller would and judged; each step says its "file" and "line"; inputs: --inputs
+  --as-text       FILE is a vendor's program text, several of one program, a folder or ZIP of them, or a cell whose selected
+                  program is a text: it is executed as its controller would and judged; each step says its "file" and "line"; inputs: --inputs
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)

@@ -20,7 +20,7 @@ export const runCommand: Command = {
   usage: `twincell run FILE… --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
        twincell run FILE… --on HOST[:PORT] [--as-text] [--paced [--gap S]] [--despite CODES]
 
-FILE is a program text, several of one program, a folder of them, or a cell whose selected program is a text; a file's siblings
+FILE is a program text, several of one program, a folder or ZIP of them, or a cell whose selected program is a text; a file's siblings
 (program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.
 
 With --on the program (a taught one, .json, or a text, executed to its steps) runs on a robot: planned from where it stands and checked

@@ -1,7 +1,9 @@
 import { readdir, readFile, stat } from "node:fs/promises";
 import { basename, dirname, join } from "node:path";
+import { inflateRawSync } from "node:zlib";
 import type { Dialect, TextFault } from "@twincell/core";
-import { dialectById, joinFiles, mainOf, type JoinedText } from "@twincell/languages";
+import { readZip } from "@twincell/formats";
+import { DIALECTS, dialectById, joinFiles, mainOf, type JoinedText } from "@twincell/languages";
 import { openDocument, selectedText, textFileOf, type CellDocument, type TextFile } from "@twincell/project";
 import { dialectOf } from "./dialect.ts";
 import { readText } from "./files.ts";
@@ -21,7 +23,7 @@ export interface TextProject {
 /**
  * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a
  * file are found beside it: those of the same name with another ending of the language (program.src has its
- * program.dat).
+ * program.dat). A ZIP archive stands for the one program in it, and is a folder in a path: backup.zip/R1/weld.src.
  */
 export async function textProject(paths: readonly string[], language: string | undefined): Promise<TextProject> {
   const [first] = paths;
@@ -32,16 +34,19 @@ export async function textProject(paths: readonly string[], language: string | u
     const file: TextFile = { name: "-", text: await readText("-") };
     return project(dialect, [{ path: "-", file }], "-");
   }
-  const whole = (await Promise.all(paths.map(filesOf))).flat();
+  const archives = new Archives();
+  const whole = (await Promise.all(paths.map(path => filesOf(path, archives)))).flat();
   const [named] = whole;
   if (named === undefined) throw new UseFault(`${first} holds no file.`);
   // The file whose ending says the language: a program rather than its data.
   const program = whole.find(path => paths.includes(path) && !/\.dat$/i.test(path));
-  const dialect = dialectOf("dialect", language, program ?? named);
+  const known = whole.find(path => DIALECTS.some(each => speaks(each, path)));
+  const dialect = dialectOf("dialect", language, program ?? known ?? named);
   const all = new Set(whole.filter(path => speaks(dialect, path) || paths.includes(path)));
-  for (const path of [...all]) for (const sibling of await siblingsOf(path, dialect)) all.add(sibling);
+  for (const archive of paths.filter(path => archives.has(path))) onlyProgram(archive, [...all]);
+  for (const path of [...all]) for (const sibling of await siblingsOf(path, dialect, archives)) all.add(sibling);
   const read = await Promise.all(
-    [...all].map(async path => ({ path, file: textFileOf(basename(path), await bytesOf(path)) })),
+    [...all].map(async path => ({ path, file: textFileOf(basename(path), await bytesOf(path, archives)) })),
   );
   const twice = read.find(({ file }, i) => read.findIndex(each => each.file.name === file.name) < i);
   if (twice) throw new UseFault(`Two files are called ${twice.file.name}.`, "Give the files of one program.");
@@ -112,7 +117,57 @@ async function fromCell(path: string): Promise<TextProject> {
 const speaks = (dialect: Dialect, path: string): boolean =>
   dialect.extensions.some(each => path.toLowerCase().endsWith(each.toLowerCase()));
 
-async function filesOf(path: string): Promise<string[]> {
+/** The archives that paths lead into, each read once. */
+class Archives {
+  private readonly read = new Map<string, ReadonlyMap<string, Uint8Array>>();
+
+  has(path: string): boolean {
+    return this.read.has(path);
+  }
+
+  /** Opens the archive that a path is or leads into; undefined where it does neither. */
+  async open(path: string): Promise<{ readonly archive: string; readonly inside: string } | undefined> {
+    const [, archive, inside = ""] = /^(.*?\.zip)(?:[/\\](.*))?$/i.exec(path) ?? [];
+    if (archive === undefined || !(await stat(archive).catch(() => undefined))?.isFile()) return undefined;
+    if (!this.read.has(archive)) {
+      const answer = readZip(await readFile(archive), (packed, size) =>
+        inflateRawSync(packed, { maxOutputLength: size + 1 }),
+      );
+      if (answer.kind !== "read") throw new UseFault(`${archive}: ${answer.sentence}`);
+      this.read.set(archive, answer.files);
+    }
+    return { archive, inside: inside.replaceAll("\\", "/") };
+  }
+
+  /** Paths of all files of an archive that was opened. */
+  filesOf(archive: string): string[] {
+    return [...(this.read.get(archive)?.keys() ?? [])].sort().map(inside => `${archive}/${inside}`);
+  }
+
+  bytesOf(archive: string, inside: string): Uint8Array | undefined {
+    return this.read.get(archive)?.get(inside);
+  }
+}
+
+/** An archive alone stands for the program in it: a backup of many wants one to be named. */
+function onlyProgram(archive: string, files: readonly string[]): void {
+  const programs = new Set(
+    files.filter(path => path.startsWith(`${archive}/`)).map(path => path.replace(/\.[^./]*$/, "").toLowerCase()),
+  );
+  if (programs.size === 0) throw new UseFault(`${archive} holds no program of this language.`);
+  if (programs.size === 1) return;
+  const named = files.filter(path => path.startsWith(`${archive}/`) && !/\.dat$/i.test(path)).slice(0, 3);
+  throw new UseFault(`${archive} holds ${programs.size} programs.`, `Name one of them, such as ${named.join(" or ")}.`);
+}
+
+async function filesOf(path: string, archives: Archives): Promise<string[]> {
+  const packed = await archives.open(path);
+  if (packed) {
+    const { archive, inside } = packed;
+    if (inside === "") return archives.filesOf(archive);
+    if (!archives.bytesOf(archive, inside)) throw new UseFault(`There is no file ${inside} in ${archive}.`);
+    return [path];
+  }
   const found = await stat(path).catch(() => undefined);
   if (found === undefined) throw new UseFault(`There is no file ${path}.`);
   if (!found.isDirectory()) return [path];
@@ -120,21 +175,27 @@ async function filesOf(path: string): Promise<string[]> {
   return names.sort().map(name => join(path, name));
 }
 
-async function siblingsOf(path: string, dialect: Dialect): Promise<string[]> {
-  const stem = basename(path)
-    .replace(/\.[^.]*$/, "")
-    .toLowerCase();
-  const names = await readdir(dirname(path)).catch(() => []);
-  return names
-    .filter(name => name.replace(/\.[^.]*$/, "").toLowerCase() === stem && speaks(dialect, name))
-    .map(name => join(dirname(path), name))
-    .filter(each => each !== path && join(each) !== join(path));
+async function siblingsOf(path: string, dialect: Dialect, archives: Archives): Promise<string[]> {
+  const stemOf = (name: string): string =>
+    basename(name)
+      .replace(/\.[^.]*$/, "")
+      .toLowerCase();
+  const packed = await archives.open(path);
+  const beside = packed
+    ? archives.filesOf(packed.archive).filter(each => dirname(each) === dirname(path))
+    : (await readdir(dirname(path)).catch(() => [])).map(name => join(dirname(path), name));
+  return beside.filter(
+    each => stemOf(each) === stemOf(path) && speaks(dialect, each) && each !== path && each !== join(path),
+  );
 }
 
-async function bytesOf(path: string): Promise<Uint8Array> {
-  const bytes = await readFile(path).catch((problem: unknown) => {
-    throw new UseFault(`${path} cannot be read: ${(problem as Error).message}.`);
-  });
+async function bytesOf(path: string, archives: Archives): Promise<Uint8Array> {
+  const packed = await archives.open(path);
+  const bytes =
+    (packed && archives.bytesOf(packed.archive, packed.inside)) ??
+    (await readFile(path).catch((problem: unknown) => {
+      throw new UseFault(`${path} cannot be read: ${(problem as Error).message}.`);
+    }));
   if (bytes.subarray(0, 4096).includes(0))
     throw new UseFault(`${path} is a binary program, not a text.`, "Export it as text on the controller.");
   return bytes;

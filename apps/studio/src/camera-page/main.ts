@@ -1,6 +1,6 @@
 import { openCamera } from "../runtime/video/camera.ts";
 import { startSender, type Sender } from "../runtime/video/sender.ts";
-import { videoWords } from "../messages/video.ts";
+import { videoWords } from "../messages/en/video.ts";
 import "../tokens.css";
 import "./camera-page.css";
 

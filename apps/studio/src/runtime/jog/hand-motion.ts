@@ -1,4 +1,13 @@
-import { CellCollider, HandGuard, linkSolids, type Contact, type HandStep } from "@twincell/core";
+import {
+  CellCollider,
+  HandGuard,
+  linkSolids,
+  PathValidator,
+  robotAndCell,
+  type SerialArm,
+  type Contact,
+  type HandStep,
+} from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { collideStore } from "../../stores/collide.ts";
@@ -6,11 +15,13 @@ import { robotOf } from "../../stores/document.ts";
 import { sound } from "../../stores/sound.ts";
 import { words } from "../../messages/index.ts";
 import { interpolateTo } from "./joint-interpolation.ts";
+import type { FreeWay } from "../robot/held-jog.ts";
 import { showJoints, theLive } from "../live.ts";
 
 interface Made {
   readonly document: CellDocument;
   readonly collider: CellCollider;
+  readonly arm: SerialArm;
   readonly guard: HandGuard;
 }
 let made: Made | null = null;
@@ -34,7 +45,7 @@ function guardNow(): Made | null {
   if (made && same(made.document, document)) return made;
   const collider = new CellCollider(cellGeometry(document, linkSolids(robot)), robot.arm);
   collider.allowContactsAt(robot.home_rad);
-  made = { document, collider, guard: new HandGuard(collider, robot.arm) };
+  made = { document, collider, arm: robot.arm, guard: new HandGuard(collider, robot.arm) };
   revision = -1;
   return made;
 }
@@ -43,6 +54,21 @@ function guardNow(): Made | null {
 export function contactAt(q_rad: ArrayLike<number>): Contact | null {
   return guardNow()?.collider.check(q_rad)[0] ?? null;
 }
+
+/**
+ * How many postures of a way are free from its beginning, with so much room kept between robot and cell on top of the
+ * errors of shape and place, and what is met behind them. Looks at the postures one by one; proves nothing.
+ */
+export const freeWay: FreeWay = (way, room_m) => {
+  const now = guardNow();
+  if (!now) return { free: way.length, met: null };
+  const validator = new PathValidator(now.collider, now.arm, { margin_m: room_m, keepsMargin: robotAndCell });
+  for (const [free, q_rad] of way.entries()) {
+    const met = validator.inTheWay(q_rad);
+    if (met) return { free, met };
+  }
+  return { free: way.length, met: null };
+};
 
 /** A contact as a person reads it. */
 export function namesOf({ a, b }: Contact): readonly [string, string] {

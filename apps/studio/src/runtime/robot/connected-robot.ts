@@ -1,11 +1,14 @@
 import { emptyProgram, solveAll, explainReach, type CommandOutcome, type Pose, type Step } from "@twincell/core";
 import { hostAt } from "./station-hosts.ts";
-import { holdStation, stationLive, stopStation } from "./stations.ts";
+import { holdStation, stationLive, stopStation, type StationLive } from "./stations.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { stationOf } from "../../stores/stations.ts";
 import { words } from "../../messages/index.ts";
-import { cartesianTarget, jointTarget, type CartesianAxis, type JogFrame } from "./jog-targets.ts";
+import { freeWay, namesOf } from "../jog/hand-motion.ts";
+import { heldJog } from "./held-jog.ts";
+import { cartesianWay, jointWay, type CartesianAxis, type JogFrame } from "./jog-targets.ts";
 
 const refused = (code: string, sentence: string, hint = ""): CommandOutcome => ({
   kind: "refused",
@@ -75,8 +78,37 @@ export function connectedRobot(id: string): ConnectedRobot {
     const signals = one.type === "set" ? (programOf(cellStore.getState().document)?.signals ?? {}) : {};
     return command({ type: "run", station: id, program: { ...program, signals }, asText: false });
   };
+  /** Which press of a jog key it is: what is left of one that was let go is not gone on with. */
+  let press = 0;
+  const jogEnd = (): CommandOutcome => refused("jog.end", words.direct.jogEnd, words.direct.jogEndHint);
+  /** A step is one motion, done or not done. Held, the robot of the cell stands before what is in its way. */
+  const jogged = (
+    wayOf: (live: StationLive) => readonly (readonly number[])[],
+    go: (q_rad: readonly number[], speed: number) => Promise<CommandOutcome>,
+    isStep: boolean,
+  ): Promise<CommandOutcome> => {
+    const own = ++press;
+    const wayFromHere = (): readonly (readonly number[])[] => {
+      const live = stationLive(id);
+      return live ? wayOf(live) : [];
+    };
+    if (!stationLive(id)) return Promise.resolve(gone());
+    if (isStep || connectionStore.getState().station !== id) {
+      const end = wayFromHere().at(-1);
+      return end ? go(end, 1) : Promise.resolve(jogEnd());
+    }
+    return heldJog({
+      wayFromHere,
+      freeWay,
+      go,
+      isHeld: () => press === own,
+      nowhere: jogEnd,
+      blocked: met => refused("jog.contact", words.direct.inTheWay(...namesOf(met)), words.direct.inTheWayHint),
+    });
+  };
   return {
     setEnabled(enabled) {
+      press++;
       if (!enabled && underWay > 0) stopStation(id);
       holdStation(id, enabled);
     },
@@ -98,23 +130,39 @@ export function connectedRobot(id: string): ConnectedRobot {
     },
     moveToZero: () => command({ type: "zero", station: id }),
     moveHome: () => move(Array.from(stationLive(id)?.robot.home_rad ?? [])),
-    async jogJoint(joint, by_rad) {
-      const live = stationLive(id);
-      if (!live) return gone();
-      const q = jointTarget(live.robot, live.q_rad, joint, by_rad);
-      return step({ id: "jog", type: "move", path: "ptp", target: { q }, speed: { ratio: JOG_RATIO }, blend_m: 0 });
-    },
-    async jogCartesian(axis, by, frame) {
-      const live = stationLive(id);
-      if (!live) return gone();
-      const q = cartesianTarget(live.robot, live.q_rad, axis, by, frame);
-      if (!q) return refused("jog.end", words.direct.jogEnd, words.direct.jogEndHint);
-      return step({ id: "jog", type: "move", path: "lin", target: { q }, speed: { mps: JOG_MPS }, blend_m: 0 });
-    },
+    jogJoint: (joint, by_rad) =>
+      jogged(
+        live => jointWay(live.robot, live.q_rad, joint, by_rad),
+        (q, share) =>
+          step({
+            id: "jog",
+            type: "move",
+            path: "ptp",
+            target: { q: [...q] },
+            speed: { ratio: JOG_RATIO * share },
+            blend_m: 0,
+          }),
+        Number.isFinite(by_rad),
+      ),
+    jogCartesian: (axis, by, frame) =>
+      jogged(
+        live => cartesianWay(live.robot, live.q_rad, axis, by, frame),
+        (q, share) =>
+          step({
+            id: "jog",
+            type: "move",
+            path: "lin",
+            target: { q: [...q] },
+            speed: { mps: JOG_MPS * share },
+            blend_m: 0,
+          }),
+        Number.isFinite(by),
+      ),
     setGripper: closed => step({ id: "gripper", type: "gripper", closed }),
     setSignal: (signal, value) => step({ id: "signal", type: "set", signal, to: value }),
     setOverride: percent => ask({ type: "speed", station: id, percent }),
     stopJog() {
+      press++;
       if (underWay > 0) stopStation(id);
     },
     drivesOff() {

@@ -95,32 +95,54 @@ export function shifted(
   };
 }
 
+/** A joint jog is looked at in steps of at most this [rad]. */
+const JOINT_STEP_RAD = (0.5 * Math.PI) / 180;
+
 /**
- * Joint angles at the end of a straight jog of the flange, as far as the arm goes without a jump of a joint; null when
- * it goes nowhere.
+ * The postures on the way of one joint by an angle, as `jointTarget` limits it; the last is the target, where it stands
+ * is not among them.
+ */
+export function jointWay(robot: Robot, q_rad: ArrayLike<number>, joint: number, by_rad: number): number[][] {
+  const from = Array.from(q_rad);
+  const to_rad = jointTarget(robot, q_rad, joint, by_rad)[joint - 1]!;
+  const now_rad = from[joint - 1]!;
+  const count = Math.ceil(Math.abs(to_rad - now_rad) / JOINT_STEP_RAD);
+  return Array.from({ length: count }, (_, i) =>
+    from.with(joint - 1, i + 1 === count ? to_rad : now_rad + ((to_rad - now_rad) * (i + 1)) / count),
+  );
+}
+
+/**
+ * The postures on a straight jog of the flange, as far as the arm goes without a jump of a joint; the last is its end,
+ * where it stands is not among them.
  *
  * @param by  [m] along x, y, z; [rad] about them. ±Infinity for as far as one held press may go.
- * @param whole  Only the whole distance counts: a step is done or not done.
+ * @param whole  Only the whole distance counts: a step is done or not done, and empty then.
  */
-export function cartesianTarget(
+export function cartesianWay(
   robot: Robot,
   q_rad: ArrayLike<number>,
   axis: CartesianAxis,
   by: number,
   frame: JogFrame,
   whole = Number.isFinite(by),
-): number[] | null {
+): number[][] {
   const most = axis < 3 ? MAX_TRAVEL_M : MAX_TURN_RAD;
   const travel = Math.max(-most, Math.min(most, by));
   const count = Math.max(1, Math.ceil(Math.abs(travel) / (axis < 3 ? STEP_M : STEP_RAD)));
   const from = flangePose(robot.arm, q_rad);
+  const way: number[][] = [];
   let last = Array.from(q_rad);
   for (let i = 1; i <= count; i++) {
     const reach = solveAll(robot, shifted(from, axis, (travel * i) / count, frame), { near: last });
     const next = reach.kind === "reached" ? reach.solutions[0]?.q_rad : undefined;
-    if (!next || last.some((angle, j) => Math.abs(next[j]! - angle) > MAX_JOINT_STEP_RAD))
-      return whole || i === 1 ? null : last;
+    if (!next || last.some((angle, j) => Math.abs(next[j]! - angle) > MAX_JOINT_STEP_RAD)) return whole ? [] : way;
     last = Array.from(next);
+    way.push(last);
   }
-  return last;
+  return way;
 }
+
+/** Joint angles at the end of that way; null when it goes nowhere. */
+export const cartesianTarget = (...asked: Parameters<typeof cartesianWay>): number[] | null =>
+  cartesianWay(...asked).at(-1) ?? null;

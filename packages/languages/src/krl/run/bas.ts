@@ -63,25 +63,86 @@ function inForce(name: string, memory: Memory, at: TextPlace): Structure | undef
   return value?.kind === "structure" ? value : undefined;
 }
 
-/** Acceleration in percent, approximation in percent or millimetres. */
-function apply(data: Structure | undefined, system: System, at: TextPlace, sort: "PTP" | "CP"): void {
-  if (data === undefined) return;
-  const acceleration = component(data, "ACC");
-  const distance = component(data, "APO_DIST");
-  const mode = data.fields.get("APO_MODE");
-  if (acceleration !== undefined && acceleration > 0) {
-    if (sort === "PTP") system.setAxes("$ACC_AXIS", acceleration, at);
-    else
-      system.setPart(
-        "$ACC",
-        "CP",
-        (acceleration / 100) *
-          (component({ kind: "structure", type: undefined, fields: new Map(system.values) }, "DEF_ACC_CP") ?? 2.3),
-      );
+/**
+ * What a setting of a spline motion makes of the data of its inline form: `WITH $APO = SAPO_PTP(PPDAT1)`. True where it
+ * is one of the controller's own; those of jerk, load and collision monitoring do not change where the robot goes.
+ */
+export function inlineSetting(
+  name: string,
+  first: Expression,
+  system: System,
+  memory: Memory,
+): "done" | "no-function-of-the-controller" {
+  const data = (): Structure | undefined => {
+    const value = evaluate(first, memory);
+    return value.kind === "structure" ? value : undefined;
+  };
+  switch (name) {
+    case "SVEL_CP":
+      system.setPart("$VEL", "CP", positive(numberOf(first, memory), first));
+      return "done";
+    case "SVEL_JOINT":
+      system.setAxes("$VEL_AXIS", numberOf(first, memory), first);
+      return "done";
+    case "SACC_JOINT":
+      accelerate(data(), system, first, "PTP");
+      return "done";
+    case "SACC_CP":
+      accelerate(data(), system, first, "CP");
+      return "done";
+    case "SAPO_PTP":
+      approximate(data(), system, "PTP");
+      return "done";
+    case "SAPO":
+      approximate(data(), system, "CP");
+      return "done";
+    case "SORI_TYP": {
+      orient(data(), system, first);
+      return "done";
+    }
+    case "SIPO_MODE":
+      system.write("$IPO_MODE", evaluate(first, memory), first, "");
+      return "done";
+    case "SLOAD":
+    case "SJERK":
+    case "SGEAR_JERK":
+    case "SCOLLMON":
+    case "USE_CM_PRO_VALUES":
+      return "done";
+    default:
+      return "no-function-of-the-controller";
   }
+}
+
+/** Acceleration in percent, approximation in percent or millimetres, and how the orientation goes along. */
+function apply(data: Structure | undefined, system: System, at: TextPlace, sort: "PTP" | "CP"): void {
+  accelerate(data, system, at, sort);
+  approximate(data, system, sort);
+  orient(data, system, at);
+}
+
+function accelerate(data: Structure | undefined, system: System, at: TextPlace, sort: "PTP" | "CP"): void {
+  const acceleration = data && component(data, "ACC");
+  if (acceleration === undefined || acceleration <= 0) return;
+  if (sort === "PTP") {
+    system.setAxes("$ACC_AXIS", acceleration, at);
+    return;
+  }
+  const full = component({ kind: "structure", type: undefined, fields: new Map(system.values) }, "DEF_ACC_CP") ?? 2.3;
+  system.setPart("$ACC", "CP", (acceleration / 100) * full);
+}
+
+function approximate(data: Structure | undefined, system: System, sort: "PTP" | "CP"): void {
+  const distance = data && component(data, "APO_DIST");
   if (distance === undefined) return;
+  const mode = data?.fields.get("APO_MODE");
   if (sort === "PTP" && !(mode?.kind === "enum" && mode.value === "#CDIS")) system.setPart("$APO", "CPTP", distance);
   else system.setPart("$APO", "CDIS", distance);
+}
+
+function orient(data: Structure | undefined, system: System, at: TextPlace): void {
+  const type = data?.fields.get("ORI_TYP");
+  if (type !== undefined) system.write("$ORI_TYPE", type, at, "");
 }
 
 /** FDAT_ACT names tool and base by their numbers. */
@@ -92,4 +153,6 @@ function frames(system: System, memory: Memory, at: TextPlace): void {
   const base = component(data, "BASE_NO");
   if (tool !== undefined) system.choose("TOOL", tool, at);
   if (base !== undefined) system.choose("BASE", base, at);
+  const mode = data.fields.get("IPO_FRAME");
+  if (mode !== undefined) system.write("$IPO_MODE", mode, at, "");
 }

@@ -10,7 +10,7 @@ import type {
   Statement,
   Variable,
 } from "../read/syntax.ts";
-import { BAS } from "./bas.ts";
+import { BAS, inlineSetting } from "./bas.ts";
 import { axesOf, typed, within, type Frame } from "./frame.ts";
 import { Lines } from "./signals.ts";
 import type { Context, ControllerState } from "./state.ts";
@@ -447,11 +447,9 @@ export class Machine implements Memory {
     const { system } = this.state;
     const first = value.kind === "call" ? value.args[0] : undefined;
     if (value.kind === "call" && first !== undefined) {
-      if (value.name === "SVEL_CP") return system.setPart("$VEL", "CP", numberOf(first, this));
-      if (value.name === "SVEL_JOINT") return system.setAxes("$VEL_AXIS", numberOf(first, this), value);
       if (value.name === "STOOL2" || value.name === "SBASE")
         return this.chooseFrame(value.name === "STOOL2" ? "TOOL" : "BASE", first);
-      if (/^S[A-Z_0-9]+$/.test(value.name)) return;
+      if (inlineSetting(value.name, first, system, this) === "done") return;
     }
     this.assign(to, evaluate(value, this), value.kind === "variable" ? spelling(value) : "");
   }

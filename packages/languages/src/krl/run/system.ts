@@ -30,6 +30,16 @@ const DELIVERED: Readonly<Record<string, Value>> = {
   LDEFAULT: structure("LDAT", { VEL: DELIVERED_VEL_CP, ACC: 100, APO_DIST: 100 }),
   FHOME: structure("FDAT", { TOOL_NO: 0, BASE_NO: 0 }),
 };
+/** What changes where the robot goes and cannot be carried out here: refused where it is set, never passed over. */
+const REFUSED: Readonly<Record<string, Readonly<Record<string, string>>>> = {
+  $IPO_MODE: {
+    "#TCP": "With #TCP the tool stands in the cell and the robot carries the part, which is not understood here.",
+  },
+  $ORI_TYPE: {
+    "#CONSTANT": "With #CONSTANT the orientation of the target is not taken, which is not understood here.",
+    "#CONST": "With #CONST the orientation of the target is not taken, which is not understood here.",
+  },
+};
 const TABLE = /^(?:TOOL|BASE)_DATA\[([0-9]+)\]$/;
 
 /** A frame that was made current, under the name it was given by. */
@@ -82,6 +92,8 @@ export class System {
     const axis = /^\$(?:VEL|ACC)_AXIS(?:\[([0-9]+)\])?$/.exec(key);
     if (axis !== null) return this.setAxis(key, Number(axis[1]), value, at);
     if (key === "$TOOL" || key === "$BASE") return this.setFrame(key, value, source, at);
+    const sentence = value.kind === "enum" ? REFUSED[key]?.[value.value] : undefined;
+    if (sentence !== undefined) throw new TextError(at, `another value of ${key}`, sentence);
     this.values.set(key, value);
   }
 
