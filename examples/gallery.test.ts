@@ -15,13 +15,15 @@ import {
   type Robot,
 } from "@twincell/core";
 import { createVirtualController, textSteps } from "@twincell/controllers";
-import { dialectsFor, proveText, runnableFile, type Dialect } from "@twincell/languages";
+import { dialectsFor, proveText, runnableFile } from "@twincell/languages";
 import { describe, expect, test } from "vitest";
 
 const clear = EXAMPLES.filter(({ check }) => check === "clear");
 const LONGEST_RUN_S = 900;
 /** Texts keep tenths of a millimetre or of a thousandth of a degree. */
 const END_M = 1e-4;
+
+type Dialect = ReturnType<typeof dialectsFor>[number];
 
 interface Task {
   readonly cell: StepsCell;
