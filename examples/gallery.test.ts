@@ -70,7 +70,7 @@ test.each(EXAMPLES.map(example => [example.id, example] as const))("%s: the chec
   expect(verdict.ok).toBe(example.check !== "bad");
 });
 
-test("the line out of reach says how far the wrist is asked to go and where on the path it ends (L-38)", () => {
+test("the line out of reach says how far the wrist is asked to go and where on the path it ends", () => {
   const { cell, robot, program } = taskOf(EXAMPLES.find(({ check }) => check === "bad")!);
   const { verdict } = checkProgram(program, robot, { cell: cellGeometry(cell, linkSolids(robot)) });
   const [start, end] = verdict.steps;
