@@ -1,4 +1,4 @@
-import { robotById, type MoveStep, type Step } from "@twincell/core";
+import { robotById, type Executed, type MoveStep, type Step } from "@twincell/core";
 import { expect, test } from "vitest";
 import { krl } from "./index.ts";
 
@@ -33,14 +33,19 @@ const BEFORE = 5;
 function executed(text: string): Step[] {
   const answer = krl.interpret(text, robot);
   if (answer.kind === "not-understood") throw new Error(answer.faults.map(({ sentence }) => sentence).join(" "));
-  return [...answer.run()].flatMap(({ step }) => (step ? [step] : []));
+  return carriedOut(answer.run()).flatMap(({ step }) => (step ? [step] : []));
+}
+function carriedOut(run: Iterator<Executed, void>): Executed[] {
+  const all: Executed[] = [];
+  for (let next = run.next(); !next.done; next = run.next()) all.push(next.value);
+  return all;
 }
 /** Where and why a text is not carried out, as it is read or as it runs. */
 function refusal(text: string): { readonly line: number; readonly sentence: string } | null {
   const answer = krl.interpret(text, robot);
   if (answer.kind === "not-understood") return answer.faults[0]!;
   try {
-    Array.from(answer.run());
+    carriedOut(answer.run());
     return null;
   } catch (problem) {
     return problem as { readonly line: number; readonly sentence: string };
