@@ -98,6 +98,51 @@ describe("guard", () => {
     expect(other.acquireLease().kind).toBe("done");
   });
 
+  test("a guard whose own thread was held up for 200 ms hears first what was said meanwhile; silence after it counts as ever", async () => {
+    for (const cut of [false, true]) {
+      const scheduler = manualScheduler();
+      const real = createVirtualController({ robot, scheduler, start_rad: START });
+      const { link, controller } = cable(real, () => scheduler.now_s());
+      let heldUp = false;
+      const guard = createGuard({
+        controller,
+        scheduler: {
+          now_s: () => scheduler.now_s(),
+          every: (period_s, tick) =>
+            scheduler.every(period_s, () => {
+              if (!heldUp) tick();
+            }),
+        },
+        heartbeat_s: 0.08,
+        silence_s: 0.06,
+      });
+      const me = guard.seat("me");
+      me.acquireLease();
+      const command = me.robot.moveJoints(turned(0.1));
+      const alive = scheduler.every(0.02, () => {
+        if (!heldUp) me.alive();
+      });
+      await scheduler.elapse(0.1);
+      heldUp = true;
+      link.up = false;
+      await scheduler.elapse(0.2);
+      // What was said waited to be read: the next look comes before it.
+      heldUp = false;
+      await scheduler.elapse(0.02);
+      expect(guard.state.link).toBe("up");
+      link.up = !cut;
+      await scheduler.elapse(0.1);
+      expect(guard.state.link).toBe(cut ? "lost" : "up");
+      expect(link.stops_s.length).toBe(cut ? 1 : 0);
+      if (!cut) {
+        await scheduler.elapse(3);
+        expect(await command).toEqual({ kind: "done" });
+      }
+      alive();
+      guard.close();
+    }
+  });
+
   test("letting the enabling switch go stops, and nothing moves without it", async () => {
     const { scheduler, real, me } = bench();
     const command = me.robot.moveJoints(turned(1));

@@ -114,6 +114,12 @@ export const GUARD_NOTICE =
   "Not a certified safety function: it may refuse or stop a motion, it can never guarantee one.";
 
 const WATCH_S = 0.02;
+/**
+ * A look that comes later than this was held up by its own thread [s]. What was sent meanwhile waits to be read: nobody
+ * listened, so it is no silence, and it is counted from there on. Nothing can be told to the robot either in that time;
+ * its own watchdog counts on.
+ */
+const HELD_UP_S = 0.05;
 /** From seeing to the stop taking effect. */
 const REACTION_S = 0.02;
 const MANUAL_CAP_MPS = 0.25;
@@ -342,8 +348,15 @@ export function createGuard(options: GuardOptions): Guard {
   }
 
   const unsubscribe = controller.onSample(watch);
+  let looked_s = scheduler.now_s();
   const stopWatching = scheduler.every(WATCH_S, () => {
     const now_s = scheduler.now_s();
+    const late_s = now_s - looked_s - WATCH_S;
+    looked_s = now_s;
+    if (late_s > HELD_UP_S) {
+      heard_s = Math.min(now_s, heard_s + late_s);
+      alive_s = Math.min(now_s, alive_s + late_s);
+    }
     if (state.link === "lost") return;
     if (now_s - heard_s > silence_s()) {
       notice(silent(now_s - heard_s));
