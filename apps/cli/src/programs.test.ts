@@ -21,9 +21,15 @@ interface Moment {
   readonly step: string;
   readonly line?: number;
 }
+interface TaughtStep {
+  id: string;
+  type: string;
+  path?: string;
+  target?: Record<string, unknown>;
+}
 interface Taught {
   name: string;
-  steps: { id: string; type: string; path?: string; target?: Record<string, unknown> }[];
+  steps: TaughtStep[];
 }
 
 /** The command as users run it. */
@@ -61,6 +67,37 @@ const pointed = (program: Taught, id: string, position: readonly number[]): void
 };
 
 describe("check", () => {
+  test("--json: a bad step says what binds it and up to three proven changes; following the first makes it good", () => {
+    const path = changed("tilted-away", program => {
+      pointed(program, "s3", [0.95, 0.62, 0.45]);
+    });
+    const first = twincell("check", path, "--json");
+    expect(first.code).toBe(1);
+    interface Said {
+      readonly id: string;
+      readonly verdict: string;
+      readonly repair?: {
+        readonly cause: string;
+        readonly sentence: string;
+        readonly repairs: readonly { readonly replace?: TaughtStep; readonly alsoReplace?: readonly TaughtStep[] }[];
+        readonly tried: readonly string[];
+      };
+    }
+    const { steps } = JSON.parse(first.out) as { steps: readonly Said[] };
+    expect(steps.filter(step => step.verdict !== "bad").every(step => step.repair === undefined)).toBe(true);
+    const bad = steps.find(step => step.verdict === "bad")!;
+    expect(bad.repair!.sentence).toMatch(/\d/);
+    expect(["reach", "joint-limit", "branch"]).toContain(bad.repair!.cause);
+    const [way] = bad.repair!.repairs.filter(({ replace }) => replace !== undefined);
+    const after = changed("tilted-back", program => {
+      pointed(program, "s3", [0.95, 0.62, 0.45]);
+      for (const step of [way!.replace!, ...(way!.alsoReplace ?? [])])
+        program.steps[program.steps.findIndex(({ id }) => id === step.id)] = step;
+    });
+    const second = JSON.parse(twincell("check", after).out) as { steps: readonly Said[] };
+    expect(second.steps.find(({ id }) => id === bad.id)!.verdict).toMatch(/ok|warn/);
+  });
+
   test("a good program is judged step by step, exit 0", () => {
     const { code, out, err } = twincell("check", PROGRAM, ...IN_CELL);
     const verdict = JSON.parse(out) as { ok: boolean; steps: { id: string; verdict: string }[] };

@@ -5,6 +5,7 @@ export * from "./diff.ts";
 export * from "./programs.ts";
 export * from "./text-program.ts";
 export * from "./attach.ts";
+export * from "./repair.ts";
 export * from "./schema-text.ts";
 export * from "./coords.ts";
 export * from "./physical.ts";

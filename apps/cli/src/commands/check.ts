@@ -2,14 +2,16 @@ import {
   checkProgram,
   keptSentence,
   linkSolids,
+  RepairSearch,
   robotById,
   readCertificate,
   verifyProgram,
   writeCertificate,
+  type Explanation,
   type ProgramCertificateVerdict,
   type Verdict,
 } from "@twincell/core";
-import { cellGeometry } from "@twincell/project";
+import { cellGeometry, nameOfFrame, objectsOfFrame } from "@twincell/project";
 import { executeText } from "@twincell/languages";
 import { given, type Given } from "../io/arguments.ts";
 import { inputsFrom } from "../io/moments.ts";
@@ -23,7 +25,7 @@ import { UseFault, type Command } from "../io/usage.ts";
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, torques, branches, collision",
-  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE]
+  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE] [--json]
 
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
 known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
@@ -33,6 +35,9 @@ known, which joint is asked most goes to stderr as well; where they are not, "to
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
+  --json          each bad step also has "repair": {"cause","sentence","out","repairs":[…],"tried":[…]}: why, and up to three
+                  changes with which the whole program was checked again, the smallest first: "kind", "amount" [rad, m],
+                  "replace", "alsoReplace", "insertBefore" (steps), "moveFrame", "moveBase" [m], and what it "reaches"
   --junit FILE    the same as a JUnit report, one test case per step
   --certificate FILE  writes what proves the program clear of contact: for every motion and pair of solids, stretches of time
                   and the distance that is proven for them; wants --cell
@@ -64,7 +69,8 @@ ${ROBOT_HELP}`,
     const chosen = await programRobot(options);
     if (options.flag("as-text")) return checkText(options, chosen, margin_m);
     const { program, robot, solids } = await readProgram(path, chosen);
-    const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), solids());
+    const document = cellPath === undefined ? undefined : await readCell(cellPath);
+    const cell = document && cellGeometry(document, solids());
     if ((certificatePath ?? verifyPath) !== undefined && cell === undefined)
       throw new UseFault("A certificate is about a cell.", "Name it with --cell.");
     if (verifyPath !== undefined && cell !== undefined) {
@@ -76,20 +82,51 @@ ${ROBOT_HELP}`,
       process.stderr.write(`${verified(answer)}\n`);
       return answer.kind === "confirmed" ? 0 : 1;
     }
-    const { verdict, certificate } = checkProgram(program, robot, {
+    const checked = checkProgram(program, robot, {
       margin_m,
       certify: certificatePath !== undefined,
       ...(cell ? { cell } : {}),
     });
+    const { verdict, certificate } = checked;
     if (certificatePath !== undefined && certificate !== undefined)
       await writeOne(certificatePath, writeCertificate(certificate));
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
-    process.stdout.write(`${JSON.stringify(verdict)}\n`);
+    if (options.flag("json")) {
+      const parts = document && {
+        objectsOf: (frame: string) => objectsOfFrame(document, frame),
+        nameOf: (frame: string) => nameOfFrame(document, frame),
+      };
+      const search = new RepairSearch(program, robot, { margin_m, ...(cell ? { cell } : {}), ...parts }, checked);
+      process.stdout.write(`${JSON.stringify(explained(verdict, search))}\n`);
+    } else process.stdout.write(`${JSON.stringify(verdict)}\n`);
     if (cell?.placeErrors) process.stderr.write(`${keptSentence(cell, margin_m)}\n`);
     if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
     return verdict.ok ? 0 : 1;
   },
 };
+
+/** More bad steps than this are not explained: each is a search of its own. */
+const MOST_EXPLAINED = 20;
+
+/** The verdict, each bad step with why it is so and what would change that. */
+function explained(verdict: Verdict, search: RepairSearch): object {
+  let left = MOST_EXPLAINED;
+  const steps = verdict.steps.map(step => {
+    const explanation = step.verdict === "bad" && left-- > 0 ? search.explain(step.id) : undefined;
+    return explanation === undefined ? step : { ...step, repair: asJson(explanation) };
+  });
+  if (left < 0)
+    process.stderr.write(`twincell: ${MOST_EXPLAINED} of ${MOST_EXPLAINED - left} bad steps are explained.\n`);
+  return { ...verdict, steps };
+}
+
+const asJson = ({ cause, sentence, out, repairs, tried }: Explanation): object => ({
+  cause,
+  sentence,
+  ...(out === undefined ? {} : { out }),
+  repairs,
+  tried,
+});
 
 /** A vendor's text, executed and judged: the verdict of a taught program, each step with its file and line. */
 async function checkText(options: Given, chosen: RobotToRun | undefined, margin_m: number): Promise<number> {

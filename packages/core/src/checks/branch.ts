@@ -162,5 +162,7 @@ const words = (branch: Branch): string => `shoulder ${branch.shoulder}, elbow ${
 
 function asJointMove(scene: CheckScene, id: string): Repair[] {
   const step = scene.layout.moves.get(id)?.step;
-  return step === undefined ? [] : [{ sentence: "Make it a joint move.", replace: jointMove(step, step.target) }];
+  return step === undefined
+    ? []
+    : [{ kind: "joint-move", sentence: "Make it a joint move.", replace: jointMove(step, step.target) }];
 }

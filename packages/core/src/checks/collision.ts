@@ -276,7 +276,7 @@ function collisionRepairs(
     if (higher === undefined) break;
     const step: MoveStep = { ...move.step, target: higher.target };
     if (free([step])) {
-      found.push({ sentence: `Raise the target by ${mm(height)}.`, replace: step });
+      found.push({ kind: "target", sentence: `Raise the target by ${mm(height)}.`, replace: step });
       break;
     }
   }
@@ -294,7 +294,11 @@ function collisionRepairs(
         blend_m: 0,
       };
       if (free([via, move.step])) {
-        found.push({ sentence: `Go there over a point ${mm(height)} above the target.`, insertBefore: [via] });
+        found.push({
+          kind: "detour",
+          sentence: `Go there over a point ${mm(height)} above the target.`,
+          insertBefore: [via],
+        });
         break;
       }
     }

@@ -123,7 +123,7 @@ function fitting(
       step,
       endsThere(step, way.at(-2)!, goal, robot, context) ? step.target : { q: [...goal], ...tool },
     );
-    const repair: Repair = { sentence: said(points.length), insertBefore: points, replace: last };
+    const repair: Repair = { kind: "detour", sentence: said(points.length), insertBefore: points, replace: last };
     const { verdict } = checkProgram(applyRepair(program, step.id, repair), robot, {
       cell,
       margin_m,

@@ -8,7 +8,7 @@ import { radians } from "../spatial/units.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import { poseTarget, type Move } from "../trajectory/moves.ts";
 import type { MoveStep, Target } from "../program/program.ts";
-import type { Repair } from "./verdict.ts";
+import type { Repair, RepairKind } from "./verdict.ts";
 import type { CheckScene } from "./scene.ts";
 
 const TILTS_DEG = [5, 10, 15, 20, 30, 45];
@@ -31,10 +31,11 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
     nearestSolution(scene.robot, compose(baseFromTcp, move.tcpFromFlange), near, out, scratch) &&
     isInsideWorkspace(scene.robot, out);
   const found: Repair[] = [];
-  const offer = (baseFromTcp: Pose<"base", "tcp">, sentence: string): boolean => {
+  const offer = (baseFromTcp: Pose<"base", "tcp">, kind: RepairKind, sentence: string): boolean => {
     if (!reachable(baseFromTcp)) return false;
     found.push({
       sentence,
+      kind,
       replace: withTarget(move.step, withoutBranch(poseTarget(baseFromTcp, target, scene.context))),
     });
     return true;
@@ -44,6 +45,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
     const other = branchOf(scene.robot, out);
     if (other !== undefined)
       found.push({
+        kind: "branch",
         sentence: `Take the posture with shoulder ${other.shoulder}, elbow ${other.elbow}, wrist ${other.wrist}.`,
         replace: withTarget(move.step, { ...withoutBranch(target), branch: other }),
       });
@@ -57,6 +59,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
         if (
           offer(
             turnTool(base, [...axis], radians(sign * angle)),
+            "tilt",
             `Tilt the tool by ${sign * angle}° about its ${name} axis.`,
           )
         )
@@ -66,7 +69,11 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
   spin: for (const angle of SPINS_DEG)
     for (const sign of [1, -1])
       if (
-        offer(turnTool(base, [0, 0, 1], radians(sign * angle)), `Turn the tool by ${sign * angle}° about its own axis.`)
+        offer(
+          turnTool(base, [0, 0, 1], radians(sign * angle)),
+          "spin",
+          `Turn the tool by ${sign * angle}° about its own axis.`,
+        )
       )
         break spin;
   // A shift by what is missing first, rounded up to whole millimetres.
@@ -80,9 +87,13 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
           : 0;
   const shifts = SHIFTS_M.map(shift => Math.ceil((missing + shift) * 1000) / 1000);
   for (const shift of shifts)
-    if (offer(towardsBase(base, shift), `Move the target ${Math.round(shift * 1000)} mm towards the robot.`)) break;
+    if (offer(towardsBase(base, shift), "target", `Move the target ${Math.round(shift * 1000)} mm towards the robot.`))
+      break;
   for (const shift of shifts)
-    if (offer(towardsBase(base, -shift), `Move the target ${Math.round(shift * 1000)} mm away from the robot.`)) break;
+    if (
+      offer(towardsBase(base, -shift), "target", `Move the target ${Math.round(shift * 1000)} mm away from the robot.`)
+    )
+      break;
   return found.slice(0, MOST_REPAIRS);
 }
 
@@ -106,6 +117,7 @@ export function configurationRepairs(scene: CheckScene, move: Move, most = 2): R
       continue;
     const next: Target = "pose" in target ? { ...target, branch } : { ...target, q: [...q_rad] };
     found.push({
+      kind: "branch",
       sentence: `Go there by a joint move with shoulder ${branch.shoulder}, elbow ${branch.elbow}, wrist ${branch.wrist}.`,
       replace: jointMove(move.step, next),
     });

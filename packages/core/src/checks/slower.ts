@@ -11,7 +11,9 @@ import { metresPerSecond, seconds, type CheckScene } from "./scene.ts";
 export function slower(scene: CheckScene, step: MoveStep, factor: number, stretch = 1): Repair[] {
   const spare = 1.02;
   const speed = step.speed;
-  const replace = (next: Speed, sentence: string): Repair[] => [{ sentence, replace: { ...step, speed: next } }];
+  const replace = (next: Speed, sentence: string): Repair[] => [
+    { kind: "slower", sentence, replace: { ...step, speed: next } },
+  ];
   if ("mps" in speed) {
     const mps = floored(speed.mps / (factor * spare));
     return replace({ mps }, `Lower the speed to ${metresPerSecond(mps)}.`);

@@ -107,10 +107,11 @@ function report(
 function gentler(scene: CheckScene, step: MoveStep, share: number): Repair[] {
   const ratio = Math.floor(100 * (step.acceleration?.ratio ?? 1) * share ** 2) / 100;
   if (!(ratio > 0)) return [];
-  return slower(scene, step, 1 / share, 1 / share).map(({ sentence, replace }) =>
+  return slower(scene, step, 1 / share, 1 / share).map(({ kind = "slower", sentence, replace }) =>
     replace?.type !== "move" || "time_s" in replace.speed
-      ? { sentence, ...(replace === undefined ? {} : { replace }) }
+      ? { kind, sentence, ...(replace === undefined ? {} : { replace }) }
       : {
+          kind,
           sentence: `${sentence.slice(0, -1)} and the acceleration to ${Math.round(ratio * 100)} %.`,
           replace: { ...replace, acceleration: { ratio } },
         },

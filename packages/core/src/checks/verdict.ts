@@ -1,11 +1,25 @@
-import type { Step } from "../program/program.ts";
+import type { ProgramChange } from "../program/edit.ts";
+import type { Vector3 } from "../spatial/vector.ts";
 
-/** A way out that a person can apply with one click: the step as it would be. */
-export interface Repair {
+/** What a way out changes. "target": the point is moved; "part": what it was taught on; "base": the robot. */
+export type RepairKind =
+  | "branch"
+  | "spin"
+  | "tilt"
+  | "target"
+  | "part"
+  | "base"
+  | "joint"
+  | "joint-move"
+  | "detour"
+  | "slower";
+
+/** A way out that a person can apply with one click: the step as it would be, and what else has to change with it. */
+export interface Repair extends ProgramChange {
   readonly sentence: string;
-  readonly replace?: Step;
-  /** Steps to put before the step, when the way out is an extra point. */
-  readonly insertBefore?: readonly Step[];
+  readonly kind?: RepairKind;
+  /** The robot stands elsewhere by this much [m], in the world. */
+  readonly moveBase?: { readonly by_m: Vector3 };
 }
 
 export interface Finding {

@@ -1,4 +1,5 @@
 import type { Group, Program, RepeatStep, SignalLine, Step } from "./program.ts";
+import type { Vector3 } from "../spatial/vector.ts";
 import { settled } from "./settle.ts";
 import { everyIn, everyStep, listsOf, stepById, withLists } from "./walk.ts";
 
@@ -200,16 +201,32 @@ function withoutEmptyGroups(program: Program): Program {
     : { ...program, groups: Object.fromEntries(kept) };
 }
 
+/** One change of a program that belongs to a step: the step itself, what comes before it, and what changes with it. */
+export interface ProgramChange {
+  readonly replace?: Step;
+  /** Steps to put before the step, when the way out is an extra point. */
+  readonly insertBefore?: readonly Step[];
+  /** Other steps as they would be, found by their ids. */
+  readonly alsoReplace?: readonly Step[];
+  /** A frame of the program moved in the world by this much [m], with everything taught in it. */
+  readonly moveFrame?: { readonly frame: string; readonly by_m: Vector3 };
+}
+
 /** Applies a repair of the checker to the step it was offered for. */
-export function applyRepair(
-  program: Program,
-  id: string,
-  repair: { readonly replace?: Step; readonly insertBefore?: readonly Step[] },
-): Program {
-  const replaced = repair.replace === undefined ? program : replaceStep(program, id, repair.replace);
-  return repair.insertBefore === undefined
-    ? replaced
-    : insertBefore(replaced, repair.replace?.id ?? id, repair.insertBefore);
+export function applyRepair(program: Program, id: string, repair: ProgramChange): Program {
+  const { replace, insertBefore: before = [], alsoReplace = [], moveFrame } = repair;
+  let so = replace === undefined ? program : replaceStep(program, id, replace);
+  if (before.length > 0) so = insertBefore(so, replace?.id ?? id, before);
+  for (const step of alsoReplace) so = replaceStep(so, step.id, step);
+  return moveFrame === undefined ? so : moveFrameBy(so, moveFrame.frame, moveFrame.by_m);
+}
+
+/** The program with one of its frames moved in the world [m]; a frame it does not have changes nothing. */
+export function moveFrameBy(program: Program, frame: string, by_m: Vector3): Program {
+  if (!Object.hasOwn(program.frames, frame)) return program;
+  const { position, quaternion } = program.frames[frame]!;
+  const moved: Vector3 = [position[0] + by_m[0], position[1] + by_m[1], position[2] + by_m[2]];
+  return { ...program, frames: { ...program.frames, [frame]: { position: moved, quaternion } } };
 }
 
 /** Gives a signal its line; one of that name is replaced. */
