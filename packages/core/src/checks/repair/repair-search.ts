@@ -274,7 +274,7 @@ export class RepairSearch {
     };
   }
 
-  /** Nothing of the robot touches. What is held, and may touch, is known to the program's check only: then all will do. */
+  /** Nothing of the robot touches. What is held may: that is known to the program's check only. */
   private accepts(): ((q_rad: Float64Array) => boolean) | undefined {
     const { cell } = this.options;
     if (cell === undefined || [...everyStep(this.program)].some(({ type }) => type === "gripper")) return undefined;
