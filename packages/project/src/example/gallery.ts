@@ -58,7 +58,7 @@ export const EXAMPLES: readonly Example[] = [
   },
   {
     id: "06-twin-of-a-gp8",
-    sentence: "A lap to be mirrored live, taken over on the pendant and travelled back.",
+    sentence: "A lap for a twin: connect a virtual Yaskawa, run it there, and travel back along it.",
     check: "clear",
     make: twinLapCell,
   },
