@@ -1,0 +1,32 @@
+import { identity } from "@twincell/core";
+import { expect, test } from "vitest";
+import type { CellDocument, ObjectRecord } from "./document.ts";
+import { tracedCartonCell } from "./example/index.ts";
+import { nameOfFrame, objectsOfFrame } from "./repair.ts";
+
+const like: ObjectRecord = tracedCartonCell().objects[0]!;
+const cell: CellDocument = {
+  ...tracedCartonCell(),
+  objects: [
+    { ...like, id: "a", name: "Carton", group: "stack" },
+    { ...like, id: "b", name: "Lid", group: "stack" },
+    { ...like, id: "c", name: "Table" },
+  ],
+  frames: [
+    { name: "edge", worldFromFrame: identity(), attachedTo: { object: "b", objectFromFrame: identity() } },
+    { name: "corner", worldFromFrame: identity(), attachedTo: { object: "c", objectFromFrame: identity() } },
+    { name: "free", worldFromFrame: identity() },
+  ],
+};
+
+test("what moves with a frame: its object with the rest of its group; nothing with a frame that is attached to nothing", () => {
+  expect(objectsOfFrame(cell, "edge")).toEqual(["a", "b"]);
+  expect(objectsOfFrame(cell, "corner")).toEqual(["c"]);
+  expect(objectsOfFrame(cell, "free")).toEqual([]);
+  expect(objectsOfFrame(cell, "nobody")).toEqual([]);
+});
+
+test("a frame is called by the object it is attached to, or by its own name", () => {
+  expect(nameOfFrame(cell, "edge")).toBe("Lid");
+  expect(nameOfFrame(cell, "free")).toBe("free");
+});
