@@ -1,27 +1,22 @@
-import {
-  compose,
-  flangePose,
-  fromAxisAngle,
-  multiply,
-  pose,
-  type CommandOutcome,
-  type MoveStep,
-  type Pose,
-  type Robot,
-  type Vector3,
-} from "@twincell/core";
+import { cartesianTarget, jointTarget, type CartesianAxis, type CommandOutcome, type MoveStep } from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { commandAt, COMMANDER_HELP, COMMANDER_OPTIONS } from "../io/at.ts";
+import { oneStepProgram } from "../io/one-step.ts";
 import { UseFault, type Command } from "../io/usage.ts";
-import { one, postureAt } from "./move.ts";
 
 const AXES = ["x", "y", "z", "rx", "ry", "rz"] as const;
 /** Jogging is slow: straight [m/s], and of a joint's speed. */
 const JOG_MPS = 0.1;
 const JOG_RATIO = 0.1;
 const MOST_STEPS = 1000;
-/** A step stays inside the limit it would meet by so much, so that rounding does not refuse it [rad]. */
-const INSIDE_LIMIT_RAD = 1e-6;
+const END: CommandOutcome = {
+  kind: "refused",
+  why: {
+    code: "jog.end",
+    sentence: "The arm goes no farther in this direction without a joint reaching its limit or a singularity.",
+    hint: "Jog by a smaller step, or a joint instead.",
+  },
+};
 
 export const jogCommand: Command = {
   name: "jog",
@@ -64,12 +59,13 @@ ${COMMANDER_HELP}`,
         throw new UseFault(`${robot.name} has joints 1 to ${robot.arm.joints.length}, not ${joint}.`);
       // Each step counts from where the last one was to end, so that what a robot is off does not add up.
       let q_rad: readonly number[] = at.sample!.q_rad;
-      let there = flangePose(robot.arm, q_rad);
       let outcome: CommandOutcome = { kind: "done" };
       for (let i = 0; i < steps && outcome.kind === "done"; i++) {
-        if (joint === undefined) there = shifted(there, axis, by, frame);
-        const next = joint === undefined ? postureAt(robot, there, q_rad) : turned(robot, q_rad, joint, by);
-        if ("kind" in next) return next;
+        const next =
+          joint === undefined
+            ? cartesianTarget(robot, q_rad, axis as CartesianAxis, by, frame)
+            : jointTarget(robot, q_rad, joint, by);
+        if (!next) return END;
         q_rad = next;
         const step: MoveStep = {
           id: "jog",
@@ -79,51 +75,14 @@ ${COMMANDER_HELP}`,
           speed: joint === undefined ? { mps: JOG_MPS } : { ratio: JOG_RATIO },
           blend_m: 0,
         };
-        outcome = await ask({ type: "run", station: info.id, program: one(robot, "Jog", step), asText: false });
+        outcome = await ask({
+          type: "run",
+          station: info.id,
+          program: oneStepProgram(robot, "Jog", step),
+          asText: false,
+        });
       }
       return outcome;
     });
   },
 };
-
-/** That joint turned on, not beyond its limit. */
-function turned(robot: Robot, q_rad: readonly number[], joint: number, by: number): number[] {
-  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits;
-  return q_rad.map((q, i) =>
-    i !== joint - 1
-      ? q
-      : by > 0
-        ? Math.max(q, Math.min(q + by, upper_rad - INSIDE_LIMIT_RAD))
-        : Math.min(q, Math.max(q + by, lower_rad + INSIDE_LIMIT_RAD)),
-  );
-}
-
-/**
- * The flange moved along an axis e by d, or turned about one through its own origin.
- *
- *   base:    p' = p + d·e,       R' = Rot(e, d)·R
- *   flange:  p' = p + d·(R·e),   R' = R·Rot(e, d)
- */
-function shifted(
-  from: Pose<"base", "flange">,
-  axis: number,
-  by: number,
-  frame: "base" | "flange",
-): Pose<"base", "flange"> {
-  const unit: Vector3 = [0, 0, 0];
-  unit[axis % 3] = 1;
-  const isTurn = axis >= 3;
-  const step = pose<"flange", "flange">(
-    isTurn ? [0, 0, 0] : [unit[0] * by, unit[1] * by, unit[2] * by],
-    isTurn ? fromAxisAngle(unit, by) : [0, 0, 0, 1],
-  );
-  if (frame === "flange") return compose(from, step);
-  return {
-    position: [
-      from.position[0] + step.position[0],
-      from.position[1] + step.position[1],
-      from.position[2] + step.position[2],
-    ],
-    quaternion: multiply(step.quaternion, from.quaternion),
-  };
-}

@@ -1,17 +1,8 @@
-import {
-  emptyProgram,
-  explainReach,
-  solveAll,
-  type CommandOutcome,
-  type MoveStep,
-  type Pose,
-  type Program,
-  type Robot,
-  type Step,
-} from "@twincell/core";
+import { explainReach, solveAll, type CommandOutcome, type MoveStep, type Pose, type Robot } from "@twincell/core";
 import { given, type Given } from "../io/arguments.ts";
 import { commandAt, COMMANDER_HELP, COMMANDER_OPTIONS } from "../io/at.ts";
 import { poseAt } from "../io/values.ts";
+import { codesOf, oneStepProgram } from "../io/one-step.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 /** A straight move is this fast when nobody says otherwise [m/s]. */
@@ -75,7 +66,7 @@ ${COMMANDER_HELP}`,
       return ask({
         type: "run",
         station,
-        program: one(robot, "Move", { ...step, target: { q } }),
+        program: oneStepProgram(robot, "Move", { ...step, target: { q } }),
         asText: false,
         despite: codesOf(options),
       });
@@ -83,14 +74,8 @@ ${COMMANDER_HELP}`,
   },
 };
 
-/** One step as a program of its own: planned, checked and guarded as any. */
-export const one = (robot: Robot, name: string, step: Step): Program => ({
-  ...emptyProgram(robot.id, name),
-  steps: [step],
-});
-
 /** The joint angles for that pose of the flange that are nearest to where the robot stands, or why there are none. */
-export function postureAt(
+function postureAt(
   robot: Robot,
   baseFromFlange: Pose<"base", "flange">,
   near: readonly number[],
@@ -104,13 +89,6 @@ export function postureAt(
         why: { code: `reach.${reach.kind}`, sentence: explainReach(reach), hint: "Give a pose that the arm reaches." },
       };
 }
-
-/** `--despite A,B`. */
-export const codesOf = (options: Given): string[] =>
-  (options.text("despite") ?? "")
-    .split(",")
-    .map(code => code.trim())
-    .filter(code => code !== "");
 
 function poseFrom(options: Given): Pose {
   const numbers = options.numbers("pose")!;

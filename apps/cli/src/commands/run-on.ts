@@ -7,7 +7,7 @@ import { commandAt } from "../io/at.ts";
 import { readProgram } from "../io/program.ts";
 import { projectFault, textProject } from "../io/text-project.ts";
 import { UseFault } from "../io/usage.ts";
-import { codesOf } from "./move.ts";
+import { codesOf } from "../io/one-step.ts";
 
 /** A taught program, or a vendor's text executed to its steps, run on a robot. */
 export async function runOn(options: Given): Promise<number> {

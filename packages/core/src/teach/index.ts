@@ -5,3 +5,4 @@ export * from "./aids.ts";
 export * from "./follow-target.ts";
 export * from "./glove.ts";
 export * from "./demonstration/index.ts";
+export * from "./jog-targets.ts";

@@ -1,4 +1,4 @@
-import { inverse, multiply, type Quaternion } from "@twincell/core";
+import { inverse, multiply, type Quaternion, type CartesianAxis } from "@twincell/core";
 import type { CommandOutcome } from "@twincell/core";
 import { cellStore } from "../../stores/cell.ts";
 import { connectionStore, isLive } from "../../stores/connection.ts";
@@ -12,7 +12,6 @@ import { viewStore } from "../../stores/view.ts";
 import { words } from "../../messages/index.ts";
 import { showJoints, theLive } from "../live.ts";
 import { connectedRobot, type ConnectedRobot } from "./connected-robot.ts";
-import type { CartesianAxis } from "./jog-targets.ts";
 import { beforeTaking } from "./motion-owner.ts";
 import { addStation, onStationSample, removeStation, stationLive, type NewStation } from "./stations.ts";
 

@@ -1,4 +1,15 @@
-import { emptyProgram, solveAll, explainReach, type CommandOutcome, type Pose, type Step } from "@twincell/core";
+import {
+  emptyProgram,
+  solveAll,
+  explainReach,
+  type CommandOutcome,
+  type Pose,
+  type Step,
+  cartesianWay,
+  jointWay,
+  type CartesianAxis,
+  type JogTargetFrame,
+} from "@twincell/core";
 import { hostAt } from "./station-hosts.ts";
 import { holdStation, stationLive, stopStation, type StationLive } from "./stations.ts";
 import { connectionStore } from "../../stores/connection.ts";
@@ -8,7 +19,6 @@ import { stationOf } from "../../stores/stations.ts";
 import { words } from "../../messages/index.ts";
 import { freeWay, namesOf } from "../jog/hand-motion.ts";
 import { heldJog } from "./held-jog.ts";
-import { cartesianWay, jointWay, type CartesianAxis, type JogFrame } from "./jog-targets.ts";
 
 const refused = (code: string, sentence: string, hint = ""): CommandOutcome => ({
   kind: "refused",
@@ -38,7 +48,7 @@ export interface ConnectedRobot {
   /** By an angle; ±Infinity for as long as the key is held. */
   jogJoint(joint: number, by_rad: number): Promise<CommandOutcome>;
   /** By [m] or [rad]; ±Infinity for as long as the key is held. */
-  jogCartesian(axis: CartesianAxis, by: number, frame: JogFrame): Promise<CommandOutcome>;
+  jogCartesian(axis: CartesianAxis, by: number, frame: JogTargetFrame): Promise<CommandOutcome>;
   setGripper(closed: boolean): Promise<CommandOutcome>;
   setSignal(signal: string, value: boolean | number): Promise<CommandOutcome>;
   setOverride(percent: number): Promise<CommandOutcome>;

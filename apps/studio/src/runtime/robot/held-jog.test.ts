@@ -11,12 +11,12 @@ import {
   robotById,
   seededRandom,
   type CommandOutcome,
+  jointWay,
 } from "@twincell/core";
 import { clearOf, driverKindById, openRobotConnection, type CellDefinition } from "@twincell/controllers";
 import { urScript } from "@twincell/languages";
 import { expect, test } from "vitest";
 import { heldJog, type FreeWay } from "./held-jog.ts";
-import { jointWay } from "./jog-targets.ts";
 
 const DONE: CommandOutcome = { kind: "done" };
 const refused = (code: string): CommandOutcome => ({ kind: "refused", why: { code, sentence: code, hint: "" } });

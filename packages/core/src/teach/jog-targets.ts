@@ -1,16 +1,9 @@
-import {
-  compose,
-  flangePose,
-  inverse,
-  multiply,
-  fromAxisAngle,
-  rotate,
-  solveAll,
-  type Pose,
-  type Quaternion,
-  type Robot,
-  type Vector3,
-} from "@twincell/core";
+import { flangePose } from "../kinematics/forward.ts";
+import { solveAll } from "../kinematics/inverse.ts";
+import type { Robot } from "../model/robot.ts";
+import { compose, inverse, type Pose } from "../spatial/pose.ts";
+import { fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
+import { addScaled, type Vector3 } from "../spatial/vector.ts";
 
 /** Directions of a Cartesian jog: along x, y, z, then about them. */
 export type CartesianAxis = 0 | 1 | 2 | 3 | 4 | 5;
@@ -20,7 +13,7 @@ export interface JogAxes {
   readonly flangeFromTcp: Pose<"flange", "tcp">;
 }
 /** Whose axes those are: the base's, or the flange's as it stands when the jog begins, about the flange; or others. */
-export type JogFrame = "base" | "flange" | JogAxes;
+export type JogTargetFrame = "base" | "flange" | JogAxes;
 
 /**
  * A jog key held for long ends this far inside a joint limit [rad], so that rounding in a controller does not refuse
@@ -62,31 +55,27 @@ export function jointTarget(robot: Robot, q_rad: ArrayLike<number>, joint: numbe
  *   flange:  p' = p + d·(R·e),     R' = R·Rot(e, d)
  *   others:  as base with e turned into the base, for the tool centre point instead of the flange
  */
-export function shifted(
+export function shiftFlange(
   baseFromFlange: Pose<"base", "flange">,
   axis: CartesianAxis,
   by: number,
-  frame: JogFrame,
+  frame: JogTargetFrame,
 ): Pose<"base", "flange"> {
   const unit: Vector3 = [0, 0, 0];
   unit[axis % 3] = 1;
   if (typeof frame === "object") {
     const baseFromTcp = compose(baseFromFlange, frame.flangeFromTcp);
     const along = rotate(frame.baseFromAxes, unit);
-    const [x, y, z] = baseFromTcp.position;
     const moved: Pose<"base", "tcp"> =
       axis < 3
-        ? { ...baseFromTcp, position: [x + by * along[0], y + by * along[1], z + by * along[2]] }
+        ? { ...baseFromTcp, position: addScaled(baseFromTcp.position, along, by) }
         : { ...baseFromTcp, quaternion: multiply(fromAxisAngle(along, by), baseFromTcp.quaternion) };
     return compose(moved, inverse(frame.flangeFromTcp));
   }
   const { position, quaternion } = baseFromFlange;
   if (axis < 3) {
     const along = frame === "base" ? unit : rotate(quaternion, unit);
-    return {
-      position: [position[0] + by * along[0], position[1] + by * along[1], position[2] + by * along[2]],
-      quaternion: [...quaternion],
-    };
+    return { position: addScaled(position, along, by), quaternion: [...quaternion] };
   }
   const turn = fromAxisAngle(unit, by);
   return {
@@ -124,17 +113,16 @@ export function cartesianWay(
   q_rad: ArrayLike<number>,
   axis: CartesianAxis,
   by: number,
-  frame: JogFrame,
+  frame: JogTargetFrame,
   whole = Number.isFinite(by),
 ): number[][] {
-  const most = axis < 3 ? MAX_TRAVEL_M : MAX_TURN_RAD;
-  const travel = Math.max(-most, Math.min(most, by));
+  const travel = Number.isFinite(by) ? by : Math.sign(by) * (axis < 3 ? MAX_TRAVEL_M : MAX_TURN_RAD);
   const count = Math.max(1, Math.ceil(Math.abs(travel) / (axis < 3 ? STEP_M : STEP_RAD)));
   const from = flangePose(robot.arm, q_rad);
   const way: number[][] = [];
   let last = Array.from(q_rad);
   for (let i = 1; i <= count; i++) {
-    const reach = solveAll(robot, shifted(from, axis, (travel * i) / count, frame), { near: last });
+    const reach = solveAll(robot, shiftFlange(from, axis, (travel * i) / count, frame), { near: last });
     const next = reach.kind === "reached" ? reach.solutions[0]?.q_rad : undefined;
     if (!next || last.some((angle, j) => Math.abs(next[j]! - angle) > MAX_JOINT_STEP_RAD)) return whole ? [] : way;
     last = Array.from(next);

@@ -1,6 +1,6 @@
-import { compose, distance, flangePose, fromAxisAngle, identity, robotById, rotate } from "@twincell/core";
+import { compose, distance, flangePose, fromAxisAngle, identity, robotById, rotate } from "../index.ts";
 import { expect, test } from "vitest";
-import { cartesianTarget, jointTarget, shifted } from "./jog-targets.ts";
+import { cartesianTarget, jointTarget, shiftFlange } from "./jog-targets.ts";
 
 const robot = robotById("ur10e")!;
 const q_rad = robot.home_rad;
@@ -32,14 +32,14 @@ test("T-38 ten Cartesian steps of 10 mm along each base axis move the flange 100
 
 test("a jog in the flange's axes goes along its own z, one in the base's along the base's", () => {
   const from = flangePose(robot.arm, q_rad);
-  const down = shifted(from, 2, 0.1, "flange");
+  const down = shiftFlange(from, 2, 0.1, "flange");
   const z = [
     down.position[0] - from.position[0],
     down.position[1] - from.position[1],
     down.position[2] - from.position[2],
   ];
   expect(Math.hypot(...z)).toBeCloseTo(0.1, 12);
-  expect(shifted(from, 2, 0.1, "base").position[2] - from.position[2]).toBeCloseTo(0.1, 12);
+  expect(shiftFlange(from, 2, 0.1, "base").position[2] - from.position[2]).toBeCloseTo(0.1, 12);
 });
 
 test("a held Cartesian jog ends where the arm ends, and a whole step beyond reach is none", () => {
@@ -52,6 +52,13 @@ test("a held Cartesian jog ends where the arm ends, and a whole step beyond reac
   let at = held!;
   for (let presses = 0; presses < 10; presses++) at = cartesianTarget(robot, at, 0, Infinity, "base") ?? at;
   expect(cartesianTarget(robot, at, 0, 0.01, "base")).toBeNull();
+});
+
+test("a step farther than one held press goes its whole way, or none of it", () => {
+  const from = flangePose(robot.arm, q_rad).position[1];
+  const far = cartesianTarget(robot, q_rad, 1, 0.6, "base");
+  expect(far === null ? null : flangePose(robot.arm, far).position[1] - from).toBeCloseTo(0.6, 7);
+  expect(cartesianTarget(robot, q_rad, 1, 60, "base")).toBeNull();
 });
 
 test("axes of their own: a step goes along them, a turn leaves the tool centre point where it is", () => {
