@@ -21,15 +21,15 @@ import { heldJog, type FreeWay } from "./held-jog.ts";
 const DONE: CommandOutcome = { kind: "done" };
 const refused = (code: string): CommandOutcome => ({ kind: "refused", why: { code, sentence: code, hint: "" } });
 
-const STEP_RAD = 0.01;
-/** A joint that is jogged from 0 to `to`, with something in the way behind `free`: what was gone, and how it ended. */
+const STEP_M = 0.01;
+/** A sliding joint jogged from 0 to `to` [m], something in the way behind `free`: what was gone, how it ended. */
 async function press(to: number, free: number, more: Partial<Parameters<typeof heldJog>[0]> = {}) {
   let now = 0;
   const speeds: number[] = [];
   const met = { a: "link 6", b: "post", between: "other" } as const;
   const outcome = await heldJog({
     wayFromHere: () =>
-      Array.from({ length: Math.ceil((to - now) / STEP_RAD) }, (_, i) => [Math.min(to, now + (i + 1) * STEP_RAD)]),
+      Array.from({ length: Math.ceil((to - now) / STEP_M) }, (_, i) => [Math.min(to, now + (i + 1) * STEP_M)]),
     freeWay: (way, room_m) => {
       const count = way.findIndex(([q]) => q! > free - room_m);
       return count < 0 ? { free: way.length, met: null } : { free: count, met };
@@ -54,7 +54,7 @@ test("towards something in the way it goes slower the nearer it is and stands 8 
     const { now, speeds, said } = await press(3, free);
     expect(said).toBe("link 6 post");
     expect(now).toBeLessThanOrEqual(free - 0.008);
-    expect(now).toBeGreaterThan(free - 0.008 - STEP_RAD - 1e-9);
+    expect(now).toBeGreaterThan(free - 0.008 - STEP_M - 1e-9);
     expect(speeds).toEqual(speeds.toSorted((a, b) => b - a));
     expect(speeds[0]).toBe(1);
   }
