@@ -99,7 +99,7 @@ describe("a controller without a server", () => {
     expect([nobody.code, nobody.err]).toEqual([2, expect.stringContaining("127.0.0.62") as string]);
   }, 120_000);
 
-  test("T-06 T-07 T-08 move goes to joint angles, one joint and a pose, and refuses what is out of reach with the numbers", async () => {
+  test("T-06 T-07 T-08 move goes to joint angles, one joint, a pose; out of reach is said in numbers", async () => {
     expect(outcomeOf(await twincell("move", ...at, "--joints", turned(0.2).join(",")))).toEqual(DONE);
     expect(near(await standsAt(at), turned(0.2))).toBeLessThan(1e-3);
     expect(outcomeOf(await twincell("move", ...at, "--joint", "1=0.1"))).toEqual(DONE);
@@ -128,7 +128,7 @@ describe("a controller without a server", () => {
     expect(then.position[0] - before.position[0]).toBeCloseTo(0, 4);
   }, 120_000);
 
-  test("stop from another process stops a move at the controller, whose own process says that it ended before its target", async () => {
+  test("stop from another process stops a move at the controller; the move says that it was stopped", async () => {
     const moving = twincell("move", ...at, "--joints", turned(1).join(","), "--ratio", "0.03");
     const watching = spawn(process.execPath, ["apps/cli/src/main.ts", "watch", ...at, "--only", "sample"], {
       cwd: root,
@@ -193,7 +193,7 @@ describe("a robot of a server", () => {
     expect([which.code, which.err]).toEqual([2, expect.stringMatching(/2 robots are open.*arm .*kuka /s) as string]);
   }, 120_000);
 
-  test("stop from another process stops a move, and its own process says so; the lease of one is refused to another", async () => {
+  test("stop from another process stops a move, which says so; a second move is refused the lease", async () => {
     const arm = [...at, "--station", "arm"];
     expect(outcomeOf(await twincell("move", ...arm, "--joints", turned(-1).join(","), "--ratio", "1"))).toEqual(DONE);
     const watching = spawn(process.execPath, ["apps/cli/src/main.ts", "watch", ...arm, "--only", "sample"], {
@@ -234,7 +234,7 @@ describe("a robot of a server", () => {
     expect(near(a, b)).toBeLessThan(1e-4);
   }, 120_000);
 
-  test("run --on sends a program that is checked, refuses a red one with the finding, and runs a vendor's text", async () => {
+  test("run --on sends a checked program, refuses a red one with the finding, runs a vendor's text", async () => {
     const arm = ["--on", at[1]!, "--station", "arm"];
     const good = programFile("good", step("a", turned(0.1)), step("b", turned(0)));
     expect(outcomeOf(await twincell("run", good, ...arm, "--as-text"))).toEqual(DONE);
@@ -247,7 +247,7 @@ describe("a robot of a server", () => {
     expect((await standsAt([...at, "--station", "arm"]))[0]).toBeCloseTo(turned(0.15)[0]!, 3);
   }, 180_000);
 
-  test("connections of the file are open again after a start, a controller that is gone is said and keeps no other away", async () => {
+  test("connections of the file are open after a start; a controller that is gone keeps no other away", async () => {
     await served.close();
     writeFileSync(
       config,
