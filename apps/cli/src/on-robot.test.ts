@@ -217,6 +217,29 @@ describe("a robot of a server", () => {
     expect(Math.abs(stood[0]! - turned(1)[0]!)).toBeGreaterThan(0.1);
   }, 180_000);
 
+  test("T-10 after an emergency stop no move is taken until a reset, whose answer comes when the robot would move again", async () => {
+    const arm = [...at, "--station", "arm"];
+    const move = (by_rad: number): Promise<Ran> =>
+      twincell("move", ...arm, "--joints", turned(by_rad).join(","), "--ratio", "1");
+    expect(outcomeOf(await move(0.3))).toEqual(DONE);
+    expect(outcomeOf(await twincell("stop", ...arm, "--emergency"))).toMatchObject({ stopped: "arm", stands: true });
+    expect(outcomeOf(await move(0.2))).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
+    const post = async (path: string, headers: Record<string, string>, body?: unknown): Promise<unknown> => {
+      const response = await fetch(new URL(`/api/v1/robots/arm/${path}`, served.url), {
+        method: "POST",
+        headers: { "content-type": "application/json", ...headers },
+        body: JSON.stringify(body ?? {}),
+      });
+      return response.json();
+    };
+    const { lease } = (await post("lease", {}, { who: "test", expires_s: 30 })) as { lease: string };
+    const holder = { "twincell-lease": lease };
+    expect(await post("reset", holder)).toEqual(DONE);
+    expect(await post("move", holder, { q_rad: turned(0.2) })).toEqual(DONE);
+    expect(near(await standsAt(arm), turned(0.2))).toBeLessThan(1e-3);
+    await fetch(new URL("/api/v1/robots/arm/lease", served.url), { method: "DELETE", headers: holder });
+  }, 120_000);
+
   test("Ctrl-C in a move stops the robot before the process ends", async () => {
     const arm = [...at, "--station", "arm"];
     const { child, ended } = started(["move", ...arm, "--joints", turned(1).join(","), "--ratio", "0.05"]);
