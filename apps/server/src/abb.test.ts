@@ -88,7 +88,7 @@ test("T-22 T-23 the driver guides the virtual controller over the loopback, on t
   real.stop(true);
   for (let i = 0; i < 100 && virtual.cabinet.motorsOn; i++) await pause(20);
   expect(virtual.cabinet.state).toBe("motoroff");
-  real.reset();
+  void real.reset();
   for (let i = 0; i < 200 && !virtual.programs.isRunning; i++) await pause(20);
   expect([virtual.cabinet.state, virtual.programs.isRunning]).toEqual(["motoron", true]);
 }, 60_000);

@@ -397,7 +397,7 @@ test.skipIf(!hasMoto)(
     // Hold and servo off, then the alarm reset, the hold let go and the servo on: the server says what it was told.
     real.stop(true);
     await until(() => safety === "emergency-stop");
-    real.reset();
+    void real.reset();
     await until(() => safety === "normal");
   },
   30_000,

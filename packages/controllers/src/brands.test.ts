@@ -46,7 +46,7 @@ async function bench(brand: DriverKind) {
       if (AT_THE_CABINET.has(brand.id)) {
         virtual.pendant.setMode("manual");
         virtual.pendant.setMode("remote");
-      } else real.reset();
+      } else void real.reset();
       await scheduler.elapse(1);
       outcome = await ended(real.moveJoints(near(i % 2 === 0 ? 0.05 : -0.05)));
       if (outcome.kind === "done") break;

@@ -79,7 +79,11 @@ export interface RobotController extends StateSource {
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
   stop(emergency?: boolean): void;
-  reset(): CommandOutcome;
+  /**
+   * Clears a stop: alarms, drives, brakes. Resolves when the robot says that it would take a command again, or why not;
+   * a stop in the meantime wins and refuses it.
+   */
+  reset(): Promise<CommandOutcome>;
   /** The lines in and out, by name. A controller without them does not have it. */
   readonly signals?: Signals;
   /** Virtual robots only (row T-18). */

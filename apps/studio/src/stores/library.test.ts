@@ -1,4 +1,4 @@
-import { edgeTraceCell, emptyCell, openDocument, saveDocument, type CellDocument } from "@twincell/project";
+import { edgeTraceCell, EXAMPLES, emptyCell, openDocument, saveDocument, type CellDocument } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
 import { keepDocument, openKept, type Clock } from "./autosave.ts";
 import { cellStore } from "./cell.ts";
@@ -120,8 +120,8 @@ test("a new cell, an example and an opened file never replace what was open: it 
   expect(shown().name).toBe("Mine");
 });
 
-test("an example as it came is not kept: looking at it leaves no cell behind", async () => {
-  openCell(edgeTraceCell());
+test("an example as it came is not kept: looking at any of them leaves no cell behind", async () => {
+  for (const { make } of EXAMPLES) openCell(make());
   openCell(emptyCell());
   openCell(edgeTraceCell());
   await time.pass(30_000);

@@ -141,11 +141,13 @@ describe("a station", () => {
     const other = station.commander("somebody else");
     other.robot.stop(true);
     await scheduler.elapse(1);
-    expect(other.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
+    expect(await other.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
     seat.releaseLease();
-    expect(seat.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.no-lease" } });
+    expect(await seat.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.no-lease" } });
     seat.acquireLease();
-    expect(seat.robot.reset()).toEqual({ kind: "done" });
+    const reset = seat.robot.reset();
+    await scheduler.elapse(1);
+    expect(await reset).toEqual({ kind: "done" });
   });
 
   test("X-41 a line that breaks and is back sooner than anybody would call it silent asks for a person's word all the same", async () => {

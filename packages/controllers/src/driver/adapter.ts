@@ -77,8 +77,11 @@ export interface ControllerAdapter {
   stop(emergency: boolean): void;
   /** Override 0 … 1; why not, where the protocol cannot. */
   setOverride(ratio: number): Refusal | null;
-  /** After a stop: alarms cleared, drives on. Why not, where a person must do it at the robot. */
-  reset(): Promise<CommandOutcome>;
+  /**
+   * After a stop: alarms cleared, drives on. Why not, where a person must do it at the robot. `wanted` is asked before
+   * each order: it says no once a stop came, and then nothing more may be switched on.
+   */
+  reset(wanted: () => boolean): Promise<CommandOutcome>;
   setSignal(signal: string, value: boolean | number): Refusal | null;
   setGripper(closed: boolean): Refusal | null;
   /** Mass and centre of what the flange carries, where the wire can say it. */

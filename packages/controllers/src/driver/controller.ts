@@ -28,7 +28,7 @@ import {
 import type { ControllerAdapter } from "./adapter.ts";
 import { keepLink } from "./link.ts";
 import { sendSteps } from "./steps.ts";
-import { linkDown, notOpen, wasStopped } from "./words.ts";
+import { linkDown, notOpen, resetUnseen, wasStopped } from "./words.ts";
 import { DONE, refused } from "../outcomes.ts";
 
 export interface RealOptions {
@@ -52,6 +52,11 @@ interface Command {
   step: string;
   over: boolean;
 }
+
+/** Longest time between the end of a reset and the first sample that says so [s]: drives and brakes take seconds. */
+const RESET_SEEN_S = 20;
+/** How often it is looked whether a reset was seen [s]. */
+const RESET_LOOK_S = 0.01;
 
 /** A stop is over when the robot says so this many times, should the answer to the motion itself be lost. */
 const STANDS = 3;
@@ -82,6 +87,10 @@ export function createRealController(options: RealOptions): RealController {
   let moving = false;
   let standing = 0;
   let override = 1;
+  /** Stops so far, and emergency stops among them: a reset that began before one of them is over. */
+  let stops = 0;
+  let emergencies = 0;
+  let resetting: Promise<CommandOutcome> | null = null;
 
   const link = keepLink(adapter, scheduler, name, {
     losing() {
@@ -194,6 +203,45 @@ export function createRealController(options: RealOptions): RealController {
     );
   }
 
+  /** Resolves when a sample says that the stop is over; why not, after the time is up or when the link went. */
+  function stopCleared(wanted: () => boolean): Promise<Refusal | null> {
+    const until_s = scheduler.now_s() + RESET_SEEN_S;
+    const look = (): Refusal | "wait" | null => {
+      if (isClosed) return closed(name);
+      if (!link.isOpen) return linkDown(name, link.report.sentence);
+      if (!wanted()) return wasStopped(robot);
+      if (lent.safety !== "emergency-stop" && lent.safety !== "protective-stop") return null;
+      return scheduler.now_s() >= until_s ? resetUnseen(robot, RESET_SEEN_S) : "wait";
+    };
+    return new Promise(resolve => {
+      const first = look();
+      if (first !== "wait") {
+        resolve(first);
+        return;
+      }
+      const cancel = scheduler.every(RESET_LOOK_S, () => {
+        const now = look();
+        if (now === "wait") return;
+        cancel();
+        resolve(now);
+      });
+    });
+  }
+  async function carryOutReset(): Promise<CommandOutcome> {
+    if (!link.isOpen) return refuse(isClosed ? closed(name) : notOpen(name));
+    said = "";
+    const stopsBefore = stops;
+    const emergenciesBefore = emergencies;
+    const wanted = (): boolean => stops === stopsBefore;
+    const outcome = await adapter.reset(wanted);
+    // An order that was on its way when the stop came may have switched on what the stop had switched off.
+    if (emergencies !== emergenciesBefore) adapter.stop(true);
+    if (!wanted()) return refuse(wasStopped(robot));
+    if (outcome.kind !== "done") return refuse(outcome.why);
+    const why = await stopCleared(wanted);
+    return why ? refuse(why) : DONE;
+  }
+
   const signals: Signals = {
     read: signal => lent.signals?.get(signal) ?? false,
     write(signal, value) {
@@ -266,17 +314,17 @@ export function createRealController(options: RealOptions): RealController {
     stop(emergency = false) {
       // Even when the link looks closed: a word too many does no harm.
       adapter.stop(emergency);
+      stops++;
+      if (emergency) emergencies++;
       if (!command) return;
       command.stopping ??= emergency ? drivesOff(robot) : wasStopped(robot);
       standing = 0;
     },
     reset() {
-      if (!link.isOpen) return refuse(isClosed ? closed(name) : notOpen(name));
-      said = "";
-      void adapter.reset().then(outcome => {
-        if (outcome.kind !== "done") said = outcome.why.sentence;
+      resetting ??= carryOutReset().finally(() => {
+        resetting = null;
       });
-      return DONE;
+      return resetting;
     },
     ...(runText
       ? {

@@ -46,5 +46,11 @@ export const waitedInVain = (step: string, signal: string, seconds: number): Ref
     `Step “${step}” waited ${seconds} s for the signal “${signal}”.`,
     "Look why the signal did not come, or give it more time.",
   );
+export const resetUnseen = (robot: Robot, after_s: number): Refusal =>
+  refusal(
+    "controller.reset-unseen",
+    `${robot.name} took the reset and still says, ${after_s} s later, that it is stopped.`,
+    "Look at the robot what keeps it stopped, then reset again.",
+  );
 export const wasStopped = (robot: Robot): Refusal =>
   refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");

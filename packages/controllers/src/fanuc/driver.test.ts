@@ -188,7 +188,7 @@ describe("the driver", () => {
     network.cut(true);
     await scheduler.elapse(20);
     expect(real.isConnected).toBe(true);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect(await ended(real.moveJoints(shifted(0.1)))).toEqual({ kind: "done" });
   });
@@ -212,11 +212,11 @@ describe("the driver", () => {
     await scheduler.elapse(0.05);
     expect(heard).toBe("protective-stop: SRVO-004 Fence open");
     expect(farthest(real.jointAngles(), fanuc.arm.jointAngles())).toBeLessThanOrEqual(ACCURACY_RAD);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect(codeOf(await real.moveToZero())).toBe("safety.protective-stop");
     fanuc.pendant.setGuardOpen(false);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
   });
@@ -251,7 +251,7 @@ describe("the driver", () => {
     fanuc.reboot();
     await scheduler.elapse(5);
     expect([real.isConnected, codeOf(await real.moveToZero())]).toEqual([true, "safety.protective-stop"]);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
   });

@@ -494,9 +494,10 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
       }
       return null;
     },
-    async reset() {
+    async reset(wanted) {
       const id = await order("FRC_Reset");
       if (id !== RMI_ERROR.ok) return refused(said(id, "Clear the cause at the robot first."));
+      if (!wanted()) return refused(wasStopped());
       locked = false;
       fault = "";
       return DONE;

@@ -237,7 +237,7 @@ describe("program texts", () => {
     });
     expect(await ended(real.runText!(listing(there, "FAULT")))).toMatchObject({ kind: "stopped" });
     await scheduler.elapse(0.2);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(await ended(real.moveJoints(shifted(0)))).toEqual({ kind: "done" });
     const deaf = await bench({ face: { ftpPort: 2121 } });

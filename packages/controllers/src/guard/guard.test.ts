@@ -435,11 +435,11 @@ describe("guard", () => {
     const command = me.robot.moveJoints(turned(1));
     await scheduler.elapse(0.2);
     me.robot.stop(true);
-    expect(me.robot.reset()).toMatchObject({ kind: "refused", why: { code: "controller.braking" } });
+    expect(await me.robot.reset()).toMatchObject({ kind: "refused", why: { code: "controller.braking" } });
     await scheduler.elapse(1);
     expect((await command).kind).toBe("stopped");
     expect(await me.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
-    expect(me.robot.reset().kind).toBe("done");
+    expect((await me.robot.reset()).kind).toBe("done");
     const again = me.robot.moveToZero();
     await scheduler.elapse(6);
     expect(await again).toEqual({ kind: "done" });

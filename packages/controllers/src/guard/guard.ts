@@ -22,6 +22,7 @@ import {
   leaseGivenBack,
   linkWentDown,
   nowhereSafe,
+  stoppedMeanwhile,
   switchLetGo,
   targetTooNear,
   tooFast,
@@ -144,6 +145,8 @@ export function createGuard(options: GuardOptions): Guard {
   let contactsAt: GuardedCell["contactsAt"];
   let gripper: GuardedCell["gripper"];
   let gripperClosed = false;
+  /** Stops by a person so far: a reset that began before one of them does not end it. */
+  let stops = 0;
   let flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
   let tcp = tcpOf(robot.arm, flangeFromTcp);
   let bound_mps = speedBound(robot, flangeFromTcp);
@@ -456,14 +459,17 @@ export function createGuard(options: GuardOptions): Guard {
         stop: emergency => {
           guard.stop(emergency);
         },
-        reset() {
+        async reset() {
           const watched = watchedOnly();
           if (watched) return refused(watched);
           // Whether it may is asked before the controller is told: its drives would be on already.
           const { denied } = guardStep(state, { type: "reset", who }, rules);
           if (denied) return refused(denialRefusal(denied, robot.name, state.holder));
-          const outcome = controller.reset();
-          return outcome.kind === "done" ? act({ type: "reset", who }) : outcome;
+          const before = stops;
+          const outcome = await controller.reset();
+          if (outcome.kind !== "done") return outcome;
+          // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
+          return before === stops ? act({ type: "reset", who }) : refused(stoppedMeanwhile(robot.name));
         },
         ...(jumpTo
           ? {
@@ -486,6 +492,7 @@ export function createGuard(options: GuardOptions): Guard {
     },
     seat,
     stop(emergency = false) {
+      stops++;
       send({ type: "stop", emergency });
     },
     linkLost(why) {

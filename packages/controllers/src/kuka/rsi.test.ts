@@ -235,7 +235,7 @@ describe("the driver over RSI", () => {
     await scheduler.elapse(3);
     expect([real.isConnected, kuka.arm.jointAngles()]).toEqual([true, rest]);
     expect(codeOf(await real.moveToZero())).toBe("safety.protective-stop");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.3);
     expect(await ended(bench, real.moveJoints(shifted(0.1)))).toEqual({ kind: "done" });
   });

@@ -67,7 +67,7 @@ describe("the driver", () => {
     real.onSample(({ safety, message }) => {
       heard = `${safety}: ${message}`;
     });
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect([heard.startsWith("protective-stop: "), cs7.isPowered, codeOf(await real.moveToZero())]).toEqual([
       true,
@@ -76,7 +76,7 @@ describe("the driver", () => {
     ]);
     cs7.pendant.setGuardOpen(false);
     const rest = cs7.arm.jointAngles();
-    real.reset();
+    void real.reset();
     await scheduler.elapse(2);
     expect([cs7.isPowered, farthest(cs7.arm.jointAngles(), rest)]).toEqual([true, 0]);
     expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
@@ -119,7 +119,7 @@ describe("the driver", () => {
     expect((await ended(moving)).kind).toBe("stopped");
     await scheduler.elapse(12);
     expect(real.isConnected).toBe(true);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(2);
     expect([cs7.isPowered, codeOf(await real.moveToZero())]).toEqual([true, "safety.protective-stop"]);
     let heard = "";

@@ -73,7 +73,7 @@ describe("the driver", () => {
     pendant.setDoorOpen(false);
     await scheduler.elapse(0.2);
     expect(heard).toBe("protective-stop: The power of the arm is off.");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect([codeOf(await real.moveToZero()), staubli.isPowered]).toEqual(["safety.protective-stop", false]);
     const rest = staubli.arm.jointAngles();
@@ -123,7 +123,7 @@ describe("the driver", () => {
       true,
       0,
     ]);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.1);
     expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
   });

@@ -105,7 +105,7 @@ export function describeController(name: string, contract: Contract): void {
       expect((await carryOut(controller.moveToZero())).outcome).toEqual({ kind: "done" });
       expect((await carryOut(controller.run([step], { tools: {}, frames: {} }))).outcome).toEqual({ kind: "done" });
       expect(controller.setSpeed(50)).toEqual({ kind: "done" });
-      expect(controller.reset()).toEqual({ kind: "done" });
+      expect((await carryOut(controller.reset())).outcome).toEqual({ kind: "done" });
       controller.stop();
       expect(controller.isMoving()).toBe(false);
       expect(controller.jointAngle(1)).toBe(controller.jointAngles()[0]);
@@ -225,12 +225,38 @@ export function describeController(name: string, contract: Contract): void {
       }
       await scheduler.elapse(0.5);
       expectAngles(controller, rest);
-      expect(controller.reset()).toEqual({ kind: "done" });
-      // Real drives take their time to come on.
-      for (let i = 0; i < 200 && safety.at(-1) !== "normal"; i++) await scheduler.elapse(0.05);
+      expect((await carryOut(controller.reset())).outcome).toEqual({ kind: "done" });
+      // Drives take their time to come on: the reset is over when the robot says so, not before.
       expect(safety).toEqual(["normal", "emergency-stop", "normal"]);
       expect((await carryOut(controller.moveJoints(at(0.5)))).outcome).toEqual({ kind: "done" });
       stopListening();
+    });
+
+    row("T-10 an emergency stop while a reset is under way stays, however far the reset was", async () => {
+      for (const after_s of [0, 0.02, 0.1, 0.5, 1.5]) {
+        const { controller, scheduler, carryOut } = await bench();
+        let safety = "";
+        const stopListening = onCorruptSample(controller, sample => {
+          safety = sample.safety;
+        });
+        controller.stop(true);
+        await scheduler.elapse(0.3);
+        const reset = controller.reset();
+        await scheduler.elapse(after_s);
+        controller.stop(true);
+        const { outcome } = await carryOut(reset);
+        if (outcome.kind === "refused") expect(outcome.why.code).not.toBe("");
+        await scheduler.elapse(10);
+        expect(safety).toBe("emergency-stop");
+        expect(await controller.moveJoints(at(0.6))).toMatchObject({
+          kind: "refused",
+          why: { code: "safety.emergency-stop" },
+        });
+        expect((await carryOut(controller.reset())).outcome).toEqual({ kind: "done" });
+        expect((await carryOut(controller.moveJoints(at(0.6)))).outcome).toEqual({ kind: "done" });
+        stopListening();
+        controller.close();
+      }
     });
 
     row("T-11 the set-up hook is called once, on load", async () => {

@@ -86,7 +86,7 @@ export function inMemoryAdapter(
       virtual.setSpeed(100 * ratio);
       return null;
     },
-    reset: () => Promise.resolve(virtual.reset()),
+    reset: () => virtual.reset(),
     setSignal(signal, value) {
       virtual.signals.write(signal, value);
       return null;

@@ -236,25 +236,25 @@ describe("UR driver", () => {
     const controller = await driver();
     bench.ur.pendant.protectiveStop("A test.");
     await bench.scheduler.elapse(1);
-    controller.reset();
+    void controller.reset();
     await bench.scheduler.elapse(0.1);
     let said = "";
     controller.onSample(({ message }) => {
       said = message;
     });
     await bench.scheduler.elapse(5);
-    controller.reset();
+    void controller.reset();
     await bench.scheduler.elapse(0.3);
     expect([bench.ur.state.safetyMode, said]).toEqual([SAFETY_MODE.NORMAL, ""]);
     bench.ur.pendant.emergencyStop(true);
     await bench.scheduler.elapse(0.1);
     expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
-    controller.reset();
+    void controller.reset();
     await bench.scheduler.elapse(3);
     expect(bench.ur.state.robotMode).toBe(ROBOT_MODE.POWER_OFF);
     bench.ur.pendant.emergencyStop(false);
     await bench.scheduler.elapse(0.01);
-    controller.reset();
+    void controller.reset();
     await bench.scheduler.elapse(3);
     expect(bench.ur.state.robotMode).toBe(ROBOT_MODE.RUNNING);
     const next = watched(controller.moveToZero());
@@ -356,7 +356,7 @@ describe("UR driver", () => {
     await scheduler.elapse(2);
     expect(bad.value).toMatchObject({ kind: "stopped", why: { code: "controller.program-fault" } });
     await scheduler.elapse(5);
-    controller.reset();
+    void controller.reset();
     await scheduler.elapse(0.5);
     const cut = run(
       "def a():\n  while True:\n    movej([0.4, -1.5, 1.5, -1.5, -1.5, 0])\n    movej([0, -1.5, 1.5, -1.5, -1.5, 0])\n  end\nend\n",

@@ -140,7 +140,7 @@ describe("UR driver: what breaks on the way", () => {
     // Everything the controller says is two tenths late: questions wait, states are old.
     bench.ur.faults.delay_s = 0.2;
     const began_ms = performance.now();
-    controller.reset();
+    void controller.reset();
     controller.stop();
     expect(performance.now() - began_ms).toBeLessThan(50);
     await bench.scheduler.elapse(0.004 + bench.ur.brakingTime_s);
@@ -241,7 +241,7 @@ describe("UR driver: what breaks on the way", () => {
     ]);
     await bench.scheduler.elapse(0.1);
     expect(await controller.moveJoints(FAR)).toMatchObject({ kind: "refused" });
-    controller.reset();
+    void controller.reset();
     await bench.scheduler.elapse(2);
     const next = watched(controller.moveJoints(FAR));
     await bench.scheduler.elapse(6);
@@ -343,7 +343,7 @@ describe("UR driver: what breaks on the way", () => {
           break;
       }
       await scheduler.elapse(0.2 * random());
-      if (random() < 0.3) controller.reset();
+      if (random() < 0.3) void controller.reset();
     }
     await scheduler.elapse(25);
     look();
@@ -353,7 +353,7 @@ describe("UR driver: what breaks on the way", () => {
     Object.assign(ur.faults, { split: false, delay_s: 0 });
     await scheduler.elapse(20);
     for (let i = 0; i < 4; i++) {
-      controller.reset();
+      void controller.reset();
       await scheduler.elapse(6);
     }
     const last_move = watched(controller.moveJoints(FAR));

@@ -438,7 +438,7 @@ describe("virtual controller", () => {
           else if (what === "jog") count(controller.atTheRobot.jog(q));
           else if (what === "jump") jumped = controller.jumpTo(q).kind === "done" || jumped;
           else if (what === "stop" || what === "emergency") controller.stop(what === "emergency");
-          else if (what === "reset") controller.reset();
+          else if (what === "reset") void controller.reset();
           else if (what === "speed") controller.setSpeed(100 * Math.max(0, Math.min(1, part[0]!)));
           else if (what === "guard") controller.atTheRobot.setGuardOpen(part[0]! > 0.5);
           else if (what === "protective") controller.atTheRobot.protectiveStop("A test.");
@@ -487,7 +487,7 @@ describe("virtual controller", () => {
     await scheduler.elapse(1);
     expect(await first).toMatchObject({ kind: "stopped", why: { code: "safety.guard-stop" } });
     expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.guard-stop" } });
-    expect(controller.reset().kind).toBe("refused");
+    expect((await controller.reset()).kind).toBe("refused");
     const rest = controller.jointAngles();
     controller.atTheRobot.setGuardOpen(false);
     await scheduler.elapse(1);
@@ -495,11 +495,11 @@ describe("virtual controller", () => {
     const second = controller.moveJoints(HOME);
     await scheduler.elapse(0.1);
     controller.atTheRobot.protectiveStop("Joint 2 met a resistance.");
-    expect(controller.reset()).toMatchObject({ kind: "refused", why: { code: "controller.braking" } });
+    expect(await controller.reset()).toMatchObject({ kind: "refused", why: { code: "controller.braking" } });
     await scheduler.elapse(1);
     expect(await second).toMatchObject({ kind: "stopped", why: { code: "safety.protective-stop" } });
     expect((await controller.moveToZero()).kind).toBe("refused");
-    expect(controller.reset().kind).toBe("done");
+    expect((await controller.reset()).kind).toBe("done");
     const third = controller.moveToZero();
     await scheduler.elapse(5);
     expect(await third).toEqual({ kind: "done" });

@@ -64,6 +64,8 @@ export type Solve = (baseFromFlange: Pose<"base", "flange">, near_rad: Float64Ar
 
 /** What a person does at the robot itself: mode switch, teach pendant, guard, and what the drives do on their own. */
 export interface AtTheRobot {
+  /** The key that clears a stop. */
+  reset(): CommandOutcome;
   setMode(mode: OperatingMode): void;
   /** A joint move commanded at the pendant, at that share of the joint speeds; works in manual mode only. */
   jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
@@ -204,6 +206,17 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     return refused(reason);
   }
 
+  /** A stop cleared, by a command or by the key at the robot itself. */
+  function resetHere(): CommandOutcome {
+    if (isClosed) return refused(closed(name));
+    if (command) return refuse(stillBraking(robot));
+    if (guardIsOpen) return refuse(guardStillOpen(robot));
+    safety = "normal";
+    why = null;
+    message = "";
+    return DONE;
+  }
+
   /** Carries out steps from standstill. Everything that moves the virtual robot goes through here. */
   function start(steps: Iterator<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome> {
     message = "";
@@ -309,15 +322,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       if (emergency) brake("emergency-stop", drivesOff(robot));
       else brake("normal", stopped("controller.stopped", `${robot.name} was stopped.`));
     },
-    reset() {
-      if (isClosed) return refused(closed(name));
-      if (command) return refuse(stillBraking(robot));
-      if (guardIsOpen) return refuse(guardStillOpen(robot));
-      safety = "normal";
-      why = null;
-      message = "";
-      return DONE;
-    },
+    reset: () => Promise.resolve(resetHere()),
     jumpTo(target_rad) {
       const reason = unfit() ?? jointRefusal(robot, target_rad);
       if (reason) return refuse(reason);
@@ -325,6 +330,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       return DONE;
     },
     atTheRobot: {
+      reset: resetHere,
       setMode(to) {
         if (to === mode) return;
         mode = to;

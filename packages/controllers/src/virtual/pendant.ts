@@ -73,7 +73,7 @@ export function neutralPendant(
         return null;
       }
       if (pressed) return "The red button is pressed.";
-      const outcome = neutral.reset();
+      const outcome = neutral.atTheRobot.reset();
       return outcome.kind === "done" ? null : outcome.why.sentence;
     },
     setOverride(ratio) {
@@ -82,7 +82,7 @@ export function neutralPendant(
     },
     reset() {
       if (pressed) return "The red button is pressed.";
-      const outcome = neutral.reset();
+      const outcome = neutral.atTheRobot.reset();
       return outcome.kind === "done" ? null : outcome.why.sentence;
     },
     jog,

@@ -75,14 +75,14 @@ test("its pendant: modes, red button, gate, a stop by itself, off and on again",
       pendant.protectiveStop("Joint 2 met something.");
     },
     () => {
-      real.reset();
+      void real.reset();
     },
     () => {
       pendant.emergencyStop(true);
     },
     () => {
       pendant.emergencyStop(false);
-      real.reset();
+      void real.reset();
     },
   ]) {
     act();

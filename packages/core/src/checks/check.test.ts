@@ -91,7 +91,7 @@ describe("checkProgram", () => {
     expect(finding.at_s).toBeCloseTo(verdict.duration_s, 6);
   });
 
-  test("L-38 a limit in the middle of a straight path is found between good ends, and the path is there to be drawn", () => {
+  test("L-38 a limit inside a straight path between good ends is found, and the path is there to draw", () => {
     // The tool turns about its own axis on the way: joint 6 runs beyond 270° while both ends would have a posture.
     const spun = (turn_deg: number): Quaternion => multiply(fromAxisAngle([0, 0, 1], radians(turn_deg)), DOWN);
     const steps = [
@@ -117,9 +117,8 @@ describe("checkProgram", () => {
     const fast = move("fast", "lin", at([0.55, 0.3, 0.35]), { mps: 6 });
     const verdict = check(programOf(ready, fast));
     const finding = findingOf(verdict, "fast", "speed.joint");
-    expect(finding.sentence).toBe(
-      `Joint ${finding.joint} would turn at ${degrees(finding.value).toFixed(1)}°/s; its limit is ${degrees(finding.limit).toFixed(1)}°/s.`,
-    );
+    const [value, limit] = [finding.value, finding.limit].map(speed => `${degrees(speed).toFixed(1)}°/s`);
+    expect(finding.sentence).toBe(`Joint ${finding.joint} would turn at ${value}; its limit is ${limit}.`);
     expect(finding.value).toBeGreaterThan(finding.limit);
     expect(finding.limit).toBe(robot.arm.joints[finding.joint! - 1]!.limits.speed_rad_s);
     expect(check(applyRepair(programOf(ready, fast), "fast", finding.repairs[0]!)).ok).toBe(true);
@@ -133,7 +132,7 @@ describe("checkProgram", () => {
     expect(check(applyRepair(programOf(ready, quick), "quick", finding.repairs[0]!)).ok).toBe(true);
   });
 
-  test("out of reach: how far, how long the arm is, and a target that can be reached; later steps are judged all the same", () => {
+  test("out of reach: how far, how long the arm is, a target within reach; later steps are judged too", () => {
     const program = programOf(ready, move("far", "ptp", at([1.4, 0, 0.3])), move("after", "ptp", at([0.55, 0, 0.35])));
     const verdict = check(program);
     const finding = findingOf(verdict, "far", "reach.too-far");
@@ -238,7 +237,7 @@ describe("collision in a program", () => {
     expect(verdict.ok).toBe(false);
   });
 
-  test("M-49 one report: reach and orientation of a target, clearance and collision on the way, each with its number", () => {
+  test("M-49 one report: reach and orientation of a target, clearance and collision, each with its number", () => {
     const back: Quaternion = fromAxisAngle([0, 1, 0], -Math.PI / 2);
     const far = move("far", "ptp", at([1.6, 0, 0.4]));
     const turned = move("turned", "ptp", at([0.68, 0, 0.3], back));
@@ -306,86 +305,59 @@ describe("collision in a program", () => {
     expect(kept.sentence).toMatch(/comes within [0-9]+ mm of “Post” at .* s; the margin is [0-9]+ mm\.$/);
   });
 
-  test("T-64 a link beside a wall by less than the error of its drawn shape is not ok without any margin asked for, and both numbers are said", () => {
-    const ur10e = robotById("ur10e")!;
-    const q = [0, -1.2, 1.6, -2, -1.57, 0];
+  const ur10e = robotById("ur10e")!;
+  const q = [0, -1.2, 1.6, -2, -1.57, 0];
+  /** The verdict on a UR10e that turns its last joint beside a wall across x, whose near side is at x. */
+  const besideWall = (x_m: number, more: Partial<CellGeometry> = {}) => {
     const turn: Program = {
       ...emptyProgram(ur10e.id),
       steps: [
         { id: "turn", type: "move", path: "ptp", target: { q: q.with(5, 0.3) }, speed: { ratio: 0.5 }, blend_m: 0 },
       ],
     };
-    const beside = (x_m: number): CellGeometry => ({
+    const wall = { id: "wall", name: "Wall", mesh: boxMesh([0.1, 6, 6]) };
+    const cell: CellGeometry = {
       worldFromBase: identity(),
       links: linkSolids(ur10e),
       allowedPairs: [],
       shapeError_m: ur10e.shapeError_m,
-      objects: [
-        {
-          id: "wall",
-          name: "Wall",
-          mesh: boxMesh([0.1, 6, 6]),
-          worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]),
-        },
-      ],
-    });
-    const verdictAt = (x_m: number) => checkProgram(turn, ur10e, { cell: beside(x_m), start_rad: q }).verdict;
+      objects: [{ ...wall, worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]) }],
+      ...more,
+    };
+    return checkProgram(turn, ur10e, { cell, start_rad: q }).verdict;
+  };
+
+  test("T-64 a link nearer to a wall than the error of its drawn shape is not ok, and both numbers are said", () => {
     // The wall is flat and stands across x: what is clear of it is a distance along x.
-    const touching_m = 1.1 - verdictAt(1.1).clearance_m!;
+    const touching_m = 1.1 - besideWall(1.1).clearance_m!;
     expect(ur10e.shapeError_m).toBeGreaterThan(0.02);
-    const finding = findingOf(verdictAt(touching_m + 0.002), "turn", "collision.contact");
+    const finding = findingOf(besideWall(touching_m + 0.002), "turn", "collision.contact");
     expect(finding.limit).toBeCloseTo(ur10e.shapeError_m, 12);
-    expect(verdictAt(touching_m + 0.002).ok).toBe(false);
+    expect(besideWall(touching_m + 0.002).ok).toBe(false);
     // Where the motion first comes nearer than that; the nearest is 2 mm.
     expect(finding.value).toBeGreaterThan(0.0019);
     expect(finding.value).toBeLessThan(ur10e.shapeError_m);
-    expect(finding.sentence).toMatch(
-      /comes within [0-9.]+ mm of “Wall” at .* s; the margin is 21 mm, 21 mm of it for the error of the drawn shape\.$/,
-    );
-    expect(verdictAt(touching_m + ur10e.shapeError_m + 0.002).ok).toBe(true);
+    expect(finding.sentence).toMatch(/comes within [0-9.]+ mm of “Wall” at .* s; the margin is 21 mm, /);
+    expect(finding.sentence).toMatch(/; the margin is 21 mm, 21 mm of it for the error of the drawn shape\.$/);
+    expect(besideWall(touching_m + ur10e.shapeError_m + 0.002).ok).toBe(true);
   });
 
-  test("T-64 registration and twin error count between the arm and what stands, also for the tool, and are said apart from the shape's", () => {
-    const ur10e = robotById("ur10e")!;
-    const q = [0, -1.2, 1.6, -2, -1.57, 0];
-    const turn: Program = {
-      ...emptyProgram(ur10e.id),
-      steps: [
-        { id: "turn", type: "move", path: "ptp", target: { q: q.with(5, 0.3) }, speed: { ratio: 0.5 }, blend_m: 0 },
-      ],
-    };
-    const beside = (x_m: number, more: Partial<CellGeometry>): CellGeometry => ({
-      worldFromBase: identity(),
-      links: linkSolids(ur10e),
-      allowedPairs: [],
-      shapeError_m: ur10e.shapeError_m,
-      objects: [
-        {
-          id: "wall",
-          name: "Wall",
-          mesh: boxMesh([0.1, 6, 6]),
-          worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]),
-        },
-      ],
-      ...more,
-    });
-    const verdictAt = (x_m: number, more: Partial<CellGeometry>) =>
-      checkProgram(turn, ur10e, { cell: beside(x_m, more), start_rad: q }).verdict;
-    const touching_m = 1.1 - verdictAt(1.1, {}).clearance_m!;
+  test("T-64 registration and twin error count for arm and tool, and are said apart from the shape's", () => {
+    const touching_m = 1.1 - besideWall(1.1).clearance_m!;
     // 2 mm beyond the error of the shape is enough where nothing else is unknown, and 5 mm of registration are not.
     const x_m = touching_m + ur10e.shapeError_m + 0.002;
-    expect(verdictAt(x_m, {}).ok).toBe(true);
-    const finding = findingOf(verdictAt(x_m, { placeError_m: 0.005 }), "turn", "collision.contact");
+    expect(besideWall(x_m).ok).toBe(true);
+    const finding = findingOf(besideWall(x_m, { placeError_m: 0.005 }), "turn", "collision.contact");
     expect(finding.limit).toBeCloseTo(ur10e.shapeError_m + 0.005, 12);
     expect(finding.sentence).toMatch(
       /the margin is 26 mm, 21 mm of it for the error of the drawn shape, 5(\.0)? mm for where the robot may stand\.$/,
     );
-    expect(verdictAt(x_m + 0.005, { placeError_m: 0.005 }).ok).toBe(true);
+    expect(besideWall(x_m + 0.005, { placeError_m: 0.005 }).ok).toBe(true);
     // A tool has no shape error, and the same error of place.
     const tool = { name: "Bar", mesh: boxMesh([0.02, 0.02, 0.3]) };
     // The tool points down and reaches no further than the arm: a table comes up to it instead of the wall.
     const table = (z_m: number, place_m: number) =>
-      verdictAt(5, {
+      besideWall(5, {
         tool,
         placeError_m: place_m,
         objects: [{ id: "table", name: "Table", mesh: boxMesh([0.3, 0.3, 0.1]), worldFromObject: tableAt(z_m) }],

@@ -1,6 +1,7 @@
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { TriangleMesh } from "../mesh/mesh.ts";
+import { tetrahedronMesh } from "../mesh/solids.ts";
 import { pairScratch, type PairScratch } from "./intersect.ts";
 import { between, rigid, rigidFromPose, type Rigid } from "./relative.ts";
 import { buildSolid, solidDistance, type Solid } from "./solid.ts";
@@ -9,23 +10,7 @@ import { buildSolid, solidDistance, type Solid } from "./solid.ts";
 const POINT_M = 1e-6;
 
 /** A solid as small as a point. */
-export const POINT_MESH: TriangleMesh = {
-  positions: Float64Array.of(
-    POINT_M,
-    POINT_M,
-    POINT_M,
-    -POINT_M,
-    -POINT_M,
-    POINT_M,
-    -POINT_M,
-    POINT_M,
-    -POINT_M,
-    POINT_M,
-    -POINT_M,
-    -POINT_M,
-  ),
-  indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
-};
+export const POINT_MESH: TriangleMesh = tetrahedronMesh(POINT_M);
 
 interface Felt {
   readonly id: string;

@@ -1,4 +1,5 @@
 import type { TriangleMesh } from "../mesh/mesh.ts";
+import { tetrahedronMesh } from "../mesh/solids.ts";
 import { surfaceDistance } from "./distance.ts";
 import { pointInside } from "./inside.ts";
 import { pairScratch } from "./intersect.ts";
@@ -65,23 +66,7 @@ class Meter {
   readonly #scratch = pairScratch();
   readonly #points = new Float64Array(6);
   readonly #at = rigid();
-  readonly #point = buildSolid({
-    positions: Float64Array.of(
-      POINT_M,
-      POINT_M,
-      POINT_M,
-      -POINT_M,
-      -POINT_M,
-      POINT_M,
-      -POINT_M,
-      POINT_M,
-      -POINT_M,
-      POINT_M,
-      -POINT_M,
-      -POINT_M,
-    ),
-    indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
-  });
+  readonly #point = buildSolid(tetrahedronMesh(POINT_M));
 
   inside(solid: Solid, [x, y, z]: Vector3): boolean {
     return pointInside(solid, x, y, z, this.#scratch);

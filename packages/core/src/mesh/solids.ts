@@ -117,3 +117,15 @@ function outward(mesh: TriangleMesh): TriangleMesh {
   }
   return { positions: mesh.positions, indices };
 }
+
+/** A regular tetrahedron about the origin, its corners on a cube of this half side [m]: the least closed mesh. */
+export const tetrahedronMesh = (half_m: number): TriangleMesh => ({
+  // biome-ignore format: a corner a line
+  positions: Float64Array.of(
+    half_m, half_m, half_m,
+    -half_m, -half_m, half_m,
+    -half_m, half_m, -half_m,
+    half_m, -half_m, -half_m,
+  ),
+  indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
+});

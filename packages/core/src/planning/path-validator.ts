@@ -13,6 +13,9 @@ export interface PathRules {
   readonly excused?: (pair: SolidPair) => boolean;
 }
 
+/** By so much a pair may come nearer on a way along what is too near already [m]. */
+const SLIDE_M = 1e-4;
+
 /**
  * Says of postures and of straight lines in joint space whether they are free. It remembers what it proved, so one is
  * kept for as long as its cell stays as it is; it sees when objects of its collider move. One a worker, as the collider
@@ -68,6 +71,46 @@ export class PathValidator {
       return pair.contact;
     }
     return null;
+  }
+
+  /**
+   * From a posture in which pairs are nearer than their margin: how many postures of a way, from its beginning, lead
+   * out of that or along it. Every such pair keeps the distance that it had at `from` (from a contact the distance must
+   * grow with each posture) and no other pair comes too near. Ends with the first posture that is free. 0 where `from`
+   * is free already, or the first posture goes deeper. Looks at the postures one by one; proves nothing.
+   */
+  wayOut(from: ArrayLike<number>, way: readonly ArrayLike<number>[]): number {
+    if (this.free(from)) return 0;
+    this.collider.place(from);
+    const near = this.#pairs.map((pair, i) => (this.#excused(pair) ? Infinity : this.#distanceAt(i)));
+    const least = near.slice();
+    for (const [count, q] of way.entries()) {
+      this.collider.place(q);
+      let outside = true;
+      for (let i = 0; i < near.length; i++) {
+        if (this.#excused(this.#pairs[i]!)) continue;
+        const distance_m = this.#distanceAt(i);
+        if (distance_m === Infinity) continue;
+        outside = false;
+        const leaves = near[i] === 0 ? distance_m > least[i]! : distance_m >= near[i]! - SLIDE_M;
+        if (!leaves) return count;
+        least[i] = distance_m;
+      }
+      if (outside) return count + 1;
+    }
+    return way.length;
+  }
+
+  #excused(pair: SolidPair): boolean {
+    return this.#rules.excused(pair);
+  }
+
+  /** Distance of a pair in the posture last placed, where it is below its margin; Infinity where it is not. */
+  #distanceAt(index: number): number {
+    const pair = this.#pairs[index]!;
+    const margin = this.#margins[index]!;
+    if (margin === 0) return this.collider.touchOf(pair) ? 0 : Infinity;
+    return this.collider.distanceOf(pair, margin);
   }
 
   /**

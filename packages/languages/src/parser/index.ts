@@ -10,3 +10,4 @@ export * from "./skip.ts";
 export * from "./naming.ts";
 export * from "./declared-cell.ts";
 export * from "./unrolled.ts";
+export * from "./remember.ts";

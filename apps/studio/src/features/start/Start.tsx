@@ -1,7 +1,7 @@
 import { emptyCell, EXAMPLES } from "@twincell/project";
 import { robotById } from "@twincell/core";
 import { Plus, Upload } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useEffect, useMemo, useState } from "react";
 import { useStore } from "zustand";
 import { runCommand } from "../../stores/commands.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
@@ -42,6 +42,7 @@ function Cells() {
   const [inTrash, setInTrash] = useState(false);
   const [trashed, setTrashed] = useState<StoredCell | null>(null);
   const [now_ms] = useState(() => Date.now());
+  const examples = useMemo(() => EXAMPLES.map(({ id, sentence, make }) => ({ id, sentence, example: make() })), []);
   useEffect(() => {
     keepPresent();
     told(theLibrary()?.flush() ?? Promise.resolve());
@@ -126,21 +127,18 @@ function Cells() {
             {words.cells.examples} <span className="muted small">{words.cells.examplesSay}</span>
           </h3>
           <div className="start-examples">
-            {EXAMPLES.map(({ id, sentence, make }) => {
-              const example = make();
-              return (
-                <button
-                  key={id}
-                  className="start-example"
-                  aria-label={words.cells.openExample(example.name)}
-                  onClick={() => openExample(example)}
-                >
-                  <b>{example.name}</b>
-                  <span className="muted small">{robotName(example.robot.id)}</span>
-                  <span className="small">{sentence}</span>
-                </button>
-              );
-            })}
+            {examples.map(({ id, sentence, example }) => (
+              <button
+                key={id}
+                className="start-example"
+                aria-label={words.cells.openExample(example.name)}
+                onClick={() => openExample(example)}
+              >
+                <b>{example.name}</b>
+                <span className="muted small">{robotName(example.robot.id)}</span>
+                <span className="small">{sentence}</span>
+              </button>
+            ))}
           </div>
         </section>
       )}

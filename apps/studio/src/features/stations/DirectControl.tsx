@@ -1,9 +1,8 @@
 import { Minus, Plus, Power, RotateCcw } from "lucide-react";
 import { useEffect, useMemo, useRef, useState } from "react";
-import type { CommandOutcome } from "@twincell/core";
+import type { CartesianAxis, CommandOutcome } from "@twincell/core";
 import { stationLive } from "../../runtime/robot/stations.ts";
 import { connectedRobot, type ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
-import type { CartesianAxis } from "../../../../../packages/core/src/teach/jog-targets.ts";
 import type { StationState } from "../../stores/stations.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { EnablingSwitch } from "../../ui/EnablingSwitch.tsx";

@@ -70,6 +70,16 @@ export const freeWay: FreeWay = (way, room_m) => {
   return { free: way.length, met: null };
 };
 
+/** How many postures of a way lead out of what is nearer to `from` than the room; see `PathValidator.wayOut`. */
+export function wayOut(from_rad: ArrayLike<number>, way: readonly (readonly number[])[], room_m: number): number {
+  const now = guardNow();
+  if (!now) return 0;
+  return new PathValidator(now.collider, now.arm, { margin_m: room_m, keepsMargin: robotAndCell }).wayOut(
+    from_rad,
+    way,
+  );
+}
+
 /** A contact as a person reads it. */
 export function namesOf({ a, b }: Contact): readonly [string, string] {
   const objects = cellStore.getState().document?.objects ?? [];

@@ -258,8 +258,8 @@ export function startCellControl(): void {
           tellRefused(connected.reset());
           return;
         }
-        const outcome = theControl()?.reset();
-        if (outcome && outcome.kind !== "done") notify("bad", outcome.why.sentence, outcome.why.hint);
+        const simulated = theControl();
+        if (simulated) tellRefused(simulated.reset());
       },
     },
   ]);

@@ -17,8 +17,8 @@ import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { stationOf } from "../../stores/stations.ts";
 import { words } from "../../messages/index.ts";
-import { freeWay, namesOf } from "../jog/hand-motion.ts";
-import { heldJog } from "./held-jog.ts";
+import { freeWay, namesOf, wayOut } from "../jog/hand-motion.ts";
+import { heldJog, type HeldJog } from "./held-jog.ts";
 
 const refused = (code: string, sentence: string, hint = ""): CommandOutcome => ({
   kind: "refused",
@@ -81,12 +81,18 @@ export function connectedRobot(id: string): ConnectedRobot {
   const move = (q_rad: readonly number[]): Promise<CommandOutcome> =>
     command({ type: "move", station: id, q_rad: [...q_rad] });
   /** One step as a program of its own: checked and guarded as any. */
-  const step = (one: Step): Promise<CommandOutcome> => {
+  const step = (one: Step, despite: readonly string[] = []): Promise<CommandOutcome> => {
     const live = stationLive(id);
     if (!live) return Promise.resolve(gone());
     const program = { ...emptyProgram(live.robot.id, words.direct.title), steps: [one] };
     const signals = one.type === "set" ? (programOf(cellStore.getState().document)?.signals ?? {}) : {};
-    return command({ type: "run", station: id, program: { ...program, signals }, asText: false });
+    return command({
+      type: "run",
+      station: id,
+      program: { ...program, signals },
+      asText: false,
+      despite: [...despite],
+    });
   };
   /** Which press of a jog key it is: what is left of one that was let go is not gone on with. */
   let press = 0;
@@ -94,7 +100,7 @@ export function connectedRobot(id: string): ConnectedRobot {
   /** A step is one motion, done or not done. Held, the robot of the cell stands before what is in its way. */
   const jogged = (
     wayOf: (live: StationLive) => readonly (readonly number[])[],
-    go: (q_rad: readonly number[], speed: number) => Promise<CommandOutcome>,
+    go: HeldJog["go"],
     isStep: boolean,
   ): Promise<CommandOutcome> => {
     const own = ++press;
@@ -105,11 +111,12 @@ export function connectedRobot(id: string): ConnectedRobot {
     if (!stationLive(id)) return Promise.resolve(gone());
     if (isStep || connectionStore.getState().station !== id) {
       const end = wayFromHere().at(-1);
-      return end ? go(end, 1) : Promise.resolve(jogEnd());
+      return end ? go(end, 1, []) : Promise.resolve(jogEnd());
     }
     return heldJog({
       wayFromHere,
       freeWay,
+      wayOut: (way, room_m) => wayOut(stationLive(id)?.q_rad ?? [], way, room_m),
       go,
       isHeld: () => press === own,
       nowhere: jogEnd,
@@ -143,29 +150,35 @@ export function connectedRobot(id: string): ConnectedRobot {
     jogJoint: (joint, by_rad) =>
       jogged(
         live => jointWay(live.robot, live.q_rad, joint, by_rad),
-        (q, share) =>
-          step({
-            id: "jog",
-            type: "move",
-            path: "ptp",
-            target: { q: [...q] },
-            speed: { ratio: JOG_RATIO * share },
-            blend_m: 0,
-          }),
+        (q, share, despite) =>
+          step(
+            {
+              id: "jog",
+              type: "move",
+              path: "ptp",
+              target: { q: [...q] },
+              speed: { ratio: JOG_RATIO * share },
+              blend_m: 0,
+            },
+            despite,
+          ),
         Number.isFinite(by_rad),
       ),
     jogCartesian: (axis, by, frame) =>
       jogged(
         live => cartesianWay(live.robot, live.q_rad, axis, by, frame),
-        (q, share) =>
-          step({
-            id: "jog",
-            type: "move",
-            path: "lin",
-            target: { q: [...q] },
-            speed: { mps: JOG_MPS * share },
-            blend_m: 0,
-          }),
+        (q, share, despite) =>
+          step(
+            {
+              id: "jog",
+              type: "move",
+              path: "lin",
+              target: { q: [...q] },
+              speed: { mps: JOG_MPS * share },
+              blend_m: 0,
+            },
+            despite,
+          ),
         Number.isFinite(by),
       ),
     setGripper: closed => step({ id: "gripper", type: "gripper", closed }),

@@ -105,7 +105,7 @@ test("T-10 an emergency stop refuses runs until reset", async () => {
   await scheduler.elapse(1);
   expect(await control.run(program, cell.name)).toMatchObject({ kind: "refused" });
   expect(controlStore.getState().safety).toBe("emergency-stop");
-  expect(control.reset().kind).toBe("done");
+  expect((await control.reset()).kind).toBe("done");
   await scheduler.elapse(0.02);
   const again = control.run(program, cell.name);
   await scheduler.elapse(3);

@@ -159,7 +159,7 @@ export interface CellControl {
    */
   begin(program: string, cellName: string): RunSession | Exclude<CommandOutcome, { kind: "done" }>;
   stop(emergency?: boolean): void;
-  reset(): CommandOutcome;
+  reset(): Promise<CommandOutcome>;
   /** 0 … 1; 0 holds. */
   setOverride(part: number): CommandOutcome;
   /** The mode switch at the robot. */

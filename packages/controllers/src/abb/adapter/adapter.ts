@@ -386,7 +386,7 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
       if (act && (text || !guides())) setSpeedRatio(act, ratio);
       return null;
     },
-    async reset(): Promise<CommandOutcome> {
+    async reset(wanted): Promise<CommandOutcome> {
       if (!act) return refused(say.linkClosed(robot));
       complaint = "";
       guide.rearm();
@@ -403,6 +403,7 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
         execution: PANEL.ctrlexecstate,
         left,
         isGuided,
+        wanted,
       });
       if (mine === life) {
         rising = false;

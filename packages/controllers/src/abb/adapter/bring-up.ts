@@ -3,7 +3,7 @@ import { DONE, refused } from "../../outcomes.ts";
 import type { RwsClient } from "./rws-client.ts";
 import type { PanelState } from "./rws-state.ts";
 import { pointToMain, putBack, startProgram, stopProgram } from "./text.ts";
-import { manualThere, noGuiding, refusedThere } from "./words.ts";
+import { manualThere, noGuiding, refusedThere, wasStopped } from "./words.ts";
 
 export interface BringUpOptions {
   readonly client: RwsClient;
@@ -16,6 +16,8 @@ export interface BringUpOptions {
   readonly left: Set<string>;
   /** Whether a program there waits for targets. */
   readonly isGuided: () => boolean;
+  /** Says no once a stop came: nothing more is switched on then. */
+  readonly wanted: () => boolean;
 }
 /** Motors come on, programs stop and start, within this time or not at all [s]. */
 const PATIENCE_S = 3;
@@ -34,6 +36,7 @@ export async function bringUp({
   execution,
   left,
   isGuided,
+  wanted,
 }: BringUpOptions): Promise<CommandOutcome> {
   const pause = (): Promise<void> =>
     new Promise(resolve => {
@@ -49,13 +52,14 @@ export async function bringUp({
         if (reply.kind !== "answer") return false;
         panel.takePanel(name, reply.states);
       }
-      if (so()) return true;
+      if (!wanted() || so()) return true;
       if (scheduler.now_s() - from_s > PATIENCE_S) return false;
     }
   }
   if (panel.mode === "manual") return refused(manualThere(robot));
   // What was told last may be older than the stop.
   await until(() => true, ctrlstate, "ctrlstate");
+  if (!wanted()) return refused(wasStopped(robot));
   if (panel.ctrl !== "motoron") {
     const on = await client.post(`${ctrlstate}?action=setctrlstate`, { "ctrl-state": "motoron" });
     if (on.kind !== "answer")
@@ -67,6 +71,7 @@ export async function bringUp({
         refusedThere("Switching the motors on", panel.words === "" ? "they did not come on." : panel.words),
       );
   }
+  if (!wanted()) return refused(wasStopped(robot));
   await until(() => true, execution, "ctrlexecstate");
   if (isGuided()) return DONE;
   if (panel.isRunning) {
@@ -74,13 +79,18 @@ export async function bringUp({
     if (!(await until(() => !panel.isRunning, execution, "ctrlexecstate")))
       return refused(refusedThere("Stopping the program", "it goes on running."));
   }
+  if (!wanted()) return refused(wasStopped(robot));
   // Only the program that waits for targets is started by a reset: whatever else is there would move by itself.
   const why = await putBack(client, left);
   if (why) return refused(why);
+  if (!wanted()) return refused(wasStopped(robot));
   const pointed = await pointToMain(client);
   if (pointed.kind !== "answer")
     return refused(refusedThere("Setting the program pointer to PROC main", pointed.sentence));
+  if (!wanted()) return refused(wasStopped(robot));
   const started = await startProgram(client, "forever");
   if (started.kind !== "answer") return refused(refusedThere("Starting the program", started.sentence));
-  return (await until(isGuided)) ? DONE : refused(noGuiding(robot));
+  const guided = await until(isGuided);
+  if (!wanted()) return refused(wasStopped(robot));
+  return guided ? DONE : refused(noGuiding(robot));
 }

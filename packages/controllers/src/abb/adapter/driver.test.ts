@@ -122,7 +122,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
     await scheduler.elapse(5);
     expect([heard.at(-1)!.safety, virtual.programs.isRunning]).toEqual(["emergency-stop", false]);
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect([heard.at(-1)!.safety, virtual.cabinet.state, virtual.programs.isRunning]).toEqual([
       "normal",
@@ -133,7 +133,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
     // One that is pressed at the cabinet is not taken back from here.
     virtual.pendant.emergencyStop(true);
     await scheduler.elapse(0.3);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(heard.at(-1)).toMatchObject({ safety: "emergency-stop", message: "Its emergency stop is pressed." });
     virtual.pendant.emergencyStop(false);
@@ -142,7 +142,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
       safety: "emergency-stop",
       message: "Its emergency stop was turned out again; the motors are off.",
     });
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(heard.at(-1)).toMatchObject({ safety: "normal", message: "" });
   });
@@ -150,7 +150,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
   test("T-20 an error of EGM on the controller ends the motion and is told; a reset starts it again, and nothing old is followed", async () => {
     const guided = await bench();
     await errorEndsTheMotion(guided, () => {
-      guided.real.reset();
+      void guided.real.reset();
     });
   });
 
@@ -158,7 +158,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
     const guided = await bench();
     const { real, virtual, scheduler } = guided;
     await followsThePendant(guided, 0.3, 1e-6);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(virtual.programs.isRunning).toBe(false);
   });
@@ -178,7 +178,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
       expect(q).toBeCloseTo(rest[i]!, 9);
     });
     expect((await real.moveJoints(turned(0))).kind).toBe("refused");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
   });
@@ -309,7 +309,7 @@ describe("program texts", () => {
       ]);
       real.setSpeed(100);
       if (emergency) {
-        real.reset();
+        void real.reset();
         await scheduler.elapse(1);
       }
       expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
@@ -341,7 +341,7 @@ describe("program texts", () => {
     virtual.pendant.setGuardOpen(true);
     expect((await carryOut(stopped)).kind).toBe("stopped");
     virtual.pendant.setGuardOpen(false);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
     expect(virtual.programs.names).toEqual(["TwincellEGM"]);
@@ -391,7 +391,7 @@ describe("what is handed over in two", () => {
     virtual.pendant.setMode("remote");
     await scheduler.elapse(1);
     expect(virtual.programs.isRunning).toBe(false);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect([virtual.programs.names, virtual.programs.isRunning]).toEqual([["TwincellEGM"], true]);
     virtual.neutral.jointAngles().forEach((q, i) => {
@@ -436,7 +436,7 @@ describe("X-41 when a line is lost", () => {
     virtual.frozen = false;
     await scheduler.elapse(2);
     expect([real.isConnected, virtual.neutral.jointAngles()]).toEqual([true, rest]);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
   });
@@ -462,7 +462,7 @@ describe("X-41 when a line is lost", () => {
     virtual.setRefusing(false);
     await scheduler.elapse(8);
     expect(real.isConnected).toBe(true);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
   });
@@ -486,7 +486,7 @@ describe("X-41 when a line is lost", () => {
     expect((await carryOut(moving)).kind).toBe("stopped");
     await scheduler.elapse(8);
     expect(real.isConnected).toBe(true);
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
   });

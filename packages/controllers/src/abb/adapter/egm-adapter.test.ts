@@ -118,7 +118,7 @@ describe("the driver of ABB's externally guided motion alone", () => {
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
     await scheduler.elapse(2);
     expect(virtual.message).toBe("No target came for 1 s.");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(heard.at(-1)?.safety).toBe("protective-stop");
     virtual.pendant.setMode("remote");

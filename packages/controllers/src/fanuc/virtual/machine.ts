@@ -80,7 +80,7 @@ export class FanucMachine {
     if (this.emergency) return "The emergency stop is pressed.";
     if (this.fenceOpen && !this.pendant) return "The fence is open.";
     if (this.arm.isMoving()) return "The robot has not come to rest.";
-    if (this.arm.reset().kind !== "done") return "The servos do not come on.";
+    if (this.arm.atTheRobot.reset().kind !== "done") return "The servos do not come on.";
     this.faults = [];
     this.on = true;
     return null;

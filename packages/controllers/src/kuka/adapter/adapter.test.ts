@@ -93,7 +93,7 @@ describe("connection", () => {
     await scheduler.elapse(3);
     expect([real.isConnected, kuka.arm.isMoving()]).toEqual([true, false]);
     expect(codeOf(await real.moveToZero())).toBe("kuka.drives-off");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.3);
     expect(await ended(bench, real.moveJoints(shifted(0.1)))).toEqual({ kind: "done" });
   });
@@ -257,7 +257,7 @@ describe("stops and whoever stands at the robot", () => {
     await scheduler.elapse(0.1);
     expect(heard).toContain("protective-stop");
     const rest = kuka.arm.jointAngles();
-    twin.reset();
+    void twin.reset();
     await scheduler.elapse(1);
     expect([kuka.arm.jointAngles(), kuka.program.state]).toEqual([rest, "ACTIVE"]);
     expect(await ended(bench, twin.moveJoints(far))).toEqual({ kind: "done" });
@@ -280,7 +280,7 @@ describe("stops and whoever stands at the robot", () => {
     await scheduler.elapse(0.1);
     kuka.pendant.setDrives(true);
     await scheduler.elapse(0.05);
-    twin.reset();
+    void twin.reset();
     await scheduler.elapse(0.5);
     expect(await ended(bench, twin.moveJoints(far))).toEqual({ kind: "done" });
   });
@@ -343,7 +343,7 @@ describe("stops and whoever stands at the robot", () => {
         false,
       ]);
       expect(codeOf(await real.moveToZero())).toBe("safety.emergency-stop");
-      real.reset();
+      void real.reset();
       await scheduler.elapse(0.3);
       expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
     }
@@ -410,7 +410,7 @@ describe("programs of the controller's own language", () => {
     await scheduler.elapse(2);
     expect([real.isConnected, kuka.program.name, kuka.program.state]).toEqual([true, "JOB", "STOP"]);
     expect(codeOf(await real.moveJoints(far))).toBe("kuka.loop-rests");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
   });

@@ -9,6 +9,7 @@ import { isKukaModel } from "../models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
 import { handKrl, programOf, runKrl } from "./text.ts";
+import { wasStopped } from "../../driver/words.ts";
 import * as say from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -288,28 +289,31 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
    * A person's word that it may go on: what is left of a motion is taken back, the lock opened, messages confirmed, the
    * program started.
    */
-  async function reset(): Promise<CommandOutcome> {
+  async function reset(wanted: () => boolean): Promise<CommandOutcome> {
     const own = client;
     const now = state;
     if (!own || !now) return refused(say.closedHere);
     if (loop) return refused(loop);
     if (!(await own.write([[TWC.stop, "TRUE"]]))) return refused(say.notTaken);
-    if (!now.ready) await switchOn(own, now);
+    if (!wanted()) return refused(wasStopped(robot));
+    if (!now.ready) await switchOn(own, now, wanted);
+    if (!wanted()) return refused(wasStopped(robot));
     if (!now.ready) return refused(say.drivesOff);
     if (types.includes(C3_TYPE.confirmAll)) await own.order({ kind: "confirm-all" });
     const started = now.loopRuns ? DONE : await startLoop(own, now);
     if (started.kind !== "done") return started;
+    if (!wanted()) return refused(wasStopped(robot));
     return (await own.write([[TWC.lock, "FALSE"]])) ? DONE : refused(say.notTaken);
   }
   /** Over the wires of the cell, where there are any: heard in EXT only. */
-  async function switchOn(own: C3Client, now: KukaState): Promise<void> {
+  async function switchOn(own: C3Client, now: KukaState, wanted: () => boolean): Promise<void> {
     if (drives.on === 0 || now.mode !== "EX") return;
     const out = (n: number, value: string): (readonly [string, string])[] => (n > 0 ? [[`$OUT[${n}]`, value]] : []);
     const until_s = scheduler.now_s() + DRIVES_S;
     // What still brakes does not hear it: it is said until the drives are on.
     for (
       await own.write(out(drives.off, "FALSE"));
-      !now.ready && client === own && scheduler.now_s() < until_s;
+      !now.ready && wanted() && client === own && scheduler.now_s() < until_s;
       await pause(LOOK_S)
     ) {
       await own.write([...out(drives.on, "FALSE"), ...out(drives.on, "TRUE")]);

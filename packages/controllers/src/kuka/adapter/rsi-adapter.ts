@@ -265,7 +265,7 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
       override = ratio;
       return null;
     },
-    reset: () => base.reset(),
+    reset: wanted => base.reset(wanted),
     setSignal: (signal, value) => base.setSignal(signal, value),
     setGripper: closed => base.setGripper(closed),
     ...(runText ? { runText: files => counted(runText.call(base, files)) } : {}),

@@ -144,7 +144,7 @@ export class Machine {
     if (this.isManual && !this.enabling) return "The enabling switch is not pressed.";
     if (this.arm.isMoving()) return "The robot has not come to rest.";
     this.offAtRest = false;
-    this.drives = this.arm.reset().kind === "done";
+    this.drives = this.arm.atTheRobot.reset().kind === "done";
     return this.drives ? null : "The drives do not come on.";
   }
   /** Takes away every message whose cause is gone. */

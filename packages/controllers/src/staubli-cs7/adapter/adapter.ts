@@ -369,11 +369,12 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
       }
       return null;
     },
-    async reset() {
+    async reset(wanted) {
       if (state === STATE.notCalibrated || state === STATE.fatal || state === STATE.manual)
         return refused(noReset(stateWords(state)));
       const error = await tell(["ENABLE POWER"]);
       if (error !== null) return refused(noReset(`The controller refused: ${error}`));
+      if (!wanted()) return refused(wasStopped(robot));
       resetting = true;
       return DONE;
     },

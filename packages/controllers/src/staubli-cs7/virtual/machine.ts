@@ -71,7 +71,7 @@ export class Machine {
   }
   /** A hand on the blinking button. */
   press(): void {
-    if (!this.blinking || this.arm.isMoving() || this.arm.reset().kind !== "done") return;
+    if (!this.blinking || this.arm.isMoving() || this.arm.atTheRobot.reset().kind !== "done") return;
     this.blinking = false;
     this.power = true;
   }

@@ -110,7 +110,7 @@ export class Machine {
         : "The emergency-stop chain is not acknowledged.";
     if (this.isMode === "manual" && !this.enabling) return "The enabling switch is not pressed.";
     if (this.arm.isMoving()) return "The robot has not come to rest.";
-    if (this.arm.reset().kind !== "done") return "The amplifiers do not come on.";
+    if (this.arm.atTheRobot.reset().kind !== "done") return "The amplifiers do not come on.";
     this.error = "";
     this.power = true;
     return null;

@@ -18,6 +18,7 @@ import { GROUPS, INPUTS, Orders } from "./orders.ts";
 import { primaryClient, type PrimaryClient } from "./primary-client.ts";
 import { openRtde, type RtdeClient } from "./rtde-client.ts";
 import { GRIPPER_LINE, OUTPUTS, RATE_HZ, UrReading } from "./state.ts";
+import { wasStopped } from "../../driver/words.ts";
 import * as words from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -287,7 +288,7 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     const answer = await at.dashboard.ask(command);
     return answer?.startsWith(wanted) === true ? null : words.dashboardSays(command, answer);
   }
-  async function reset(): Promise<CommandOutcome> {
+  async function reset(wanted: () => boolean): Promise<CommandOutcome> {
     const at = open;
     if (!at) return refused(words.noAnswer("There is no connection."));
     const { reading } = at;
@@ -305,23 +306,26 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     }
     if (
       !(await until(
-        () => reading.safetyMode === SAFETY_MODE.NORMAL || reading.safetyMode === SAFETY_MODE.REDUCED,
+        () => !wanted() || reading.safetyMode === SAFETY_MODE.NORMAL || reading.safetyMode === SAFETY_MODE.REDUCED,
         PROGRAM_S,
       ))
     )
       return refused(words.tookTooLong(robot, "free of its safety stop", PROGRAM_S));
+    if (!wanted()) return refused(wasStopped(robot));
     if (reading.robotMode < ROBOT_MODE.IDLE) {
       const why = await tell(at, "power on", REPLIES.poweringOn);
       if (why) return refused(why);
-      if (!(await until(() => reading.robotMode >= ROBOT_MODE.IDLE, POWER_S)))
+      if (!(await until(() => !wanted() || reading.robotMode >= ROBOT_MODE.IDLE, POWER_S)))
         return refused(words.tookTooLong(robot, "powered on", POWER_S));
     }
+    if (!wanted()) return refused(wasStopped(robot));
     if (reading.robotMode !== ROBOT_MODE.RUNNING) {
       const why = await tell(at, "brake release", REPLIES.releasing);
       if (why) return refused(why);
-      if (!(await until(() => reading.robotMode === ROBOT_MODE.RUNNING, POWER_S)))
+      if (!(await until(() => !wanted() || reading.robotMode === ROBOT_MODE.RUNNING, POWER_S)))
         return refused(words.tookTooLong(robot, "free of its brakes", POWER_S));
     }
+    if (!wanted()) return refused(wasStopped(robot));
     at.said = "";
     const why = reading.isIdle ? await program() : null;
     return why ? refused(why) : DONE;

@@ -73,7 +73,7 @@ describe("the driver of Yaskawa's Ethernet server", () => {
     await scheduler.elapse(0.1);
     expect(heard.at(-1)).toMatchObject({ safety: "protective-stop", message: "Alarm 4320: OVERLOAD (CONTINUE) [2]" });
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.protective-stop" } });
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect(heard.at(-1)).toMatchObject({ safety: "normal", message: "" });
     expect((await carryOut(real.moveToZero())).outcome).toEqual({ kind: "done" });
@@ -504,7 +504,7 @@ describe("the driver when the line is bad", () => {
     await scheduler.elapse(10);
     expect(real.isConnected).toBe(true);
     expect(heard.at(-1)?.safety).toBe("emergency-stop");
-    real.reset();
+    void real.reset();
     await scheduler.elapse(1);
     expect((await carryOut(real.moveJoints(turned(0.1)))).outcome).toEqual({ kind: "done" });
   });
@@ -531,7 +531,7 @@ describe("the driver when the line is bad", () => {
       kind: "refused",
       why: { sentence: "No port is free." },
     });
-    real.reset();
+    void real.reset();
     await scheduler.elapse(0.5);
     expect(heard.at(-1)?.safety).toBe("emergency-stop");
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });

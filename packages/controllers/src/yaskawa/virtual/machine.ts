@@ -341,7 +341,7 @@ export class Machine {
     this.refresh();
   }
   private servoIsOn(): void {
-    const answer = this.options.neutral.reset();
+    const answer = this.options.neutral.atTheRobot.reset();
     // The robot is still braking: the drives come on when it stands.
     if (answer.kind !== "done") return;
     this.servoAt_s = Infinity;

@@ -1,16 +1,5 @@
-import type {
-  Condition,
-  Executed,
-  MoveStep,
-  Pose,
-  Robot,
-  SignalLine,
-  Signals,
-  Step,
-  Target,
-  TextPlace,
-} from "@twincell/core";
-import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
+import { TextError, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -26,36 +15,16 @@ import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
 import type { Source } from "../read/source.ts";
 import { ControllerArm } from "./arm.ts";
-import { NOTHING, fromSix, inverted, times, toPose, toSix, type Matrix } from "./matrix.ts";
-import { keep, speedOf } from "./pace.ts";
+import { Lines, isLineWord, kindOfLine } from "./lines.ts";
+import { fromSix, inverted, moved, times, toPose, toSix, type Matrix } from "./matrix.ts";
+import { speedOf } from "./pace.ts";
+import { Setups } from "./setups.ts";
 import { asNumber, binary, isSix, type Value } from "./values.ts";
 
-const KINDS: Readonly<Record<string, SignalLine["kind"]>> = {
-  di: "digital-in",
-  ri: "digital-in",
-  ui: "digital-in",
-  si: "digital-in",
-  do: "digital-out",
-  ro: "digital-out",
-  uo: "digital-out",
-  so: "digital-out",
-  ai: "analogue-in",
-  gi: "analogue-in",
-  ao: "analogue-out",
-  go: "analogue-out",
-};
-/** Lines that the neutral program has numbers for; others go by their names. */
-const NUMBERED = new Set(["di", "do", "ai", "ao"]);
 const GRIPPER = "ro1";
 /** $WAITTMOUT counts hundredths of a second; 30 s when nobody has set it. */
 const TIMEOUT = 3000;
-const DEFAULT_WIDE = 360;
 
-/** A tool or a frame as it was set up, and what a person calls it. */
-interface Setup {
-  readonly matrix: Matrix;
-  readonly name: string;
-}
 /** A position register that is the difference of two others: how far a place is from the first. */
 interface Difference {
   readonly present: string;
@@ -68,16 +37,11 @@ export class Machine extends BlockMachine<Value> {
   readonly declared: DeclaredCell;
   /** Registers that hold how far the place of a pallet is off, while the pallet is read as one. */
   readonly places = new Set<string>();
-  /** Frames and tools that were used and are set up nowhere in the text. */
-  readonly assumed = new Map<string, TextPlace>();
   private readonly source: Source;
-  private readonly signals: Signals | undefined;
+  private readonly lines: Lines;
+  private readonly setups: Setups;
   private readonly writesDown: boolean;
-  private readonly outputs = new Map<string, boolean | number>();
-  private readonly setups = new Map<string, Setup>();
   private readonly differences = new Map<string, Difference>();
-  private uframe: number | undefined;
-  private utool: number | undefined;
   private timeout = TIMEOUT;
   private skip: Expression | undefined;
   private offset: string | undefined;
@@ -87,6 +51,11 @@ export class Machine extends BlockMachine<Value> {
   /** Arguments of the calls under way, the innermost last. */
   private readonly given: (readonly Value[])[] = [];
   private jump: number | undefined;
+
+  /** Frames and tools that were used and are set up nowhere in the text. */
+  get assumed(): ReadonlyMap<string, TextPlace> {
+    return this.setups.assumed;
+  }
 
   /**
    * @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks
@@ -104,7 +73,8 @@ export class Machine extends BlockMachine<Value> {
     this.source = source;
     this.arm = new ControllerArm(robot, worldFromBase);
     this.declared = declared;
-    this.signals = signals;
+    this.lines = new Lines(declared.signals, signals, name => this.spelt(name));
+    this.setups = new Setups(declared, this.arm);
     this.writesDown = writesDown;
   }
 
@@ -160,7 +130,12 @@ export class Machine extends BlockMachine<Value> {
       case "variable": {
         if (expression.name === "lpos")
           return [
-            ...toSix(times(times(inverted(this.frameNow(expression)), this.arm.flange), this.toolNow(expression))),
+            ...toSix(
+              times(
+                times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
+                this.setups.now("utool", expression).matrix,
+              ),
+            ),
           ];
         return this.register(expression.name, expression);
       }
@@ -168,7 +143,7 @@ export class Machine extends BlockMachine<Value> {
         const { of, indices } = expression;
         const word = of.kind === "variable" ? of.name : "";
         const [first, second] = indices.map(index => this.numberOf(index));
-        if (Object.hasOwn(KINDS, word)) return this.read(this.line(word, first!, expression));
+        if (isLineWord(word)) return this.lines.read(this.lines.line(word, first!, expression));
         if (word === "ar") {
           const argument = this.given.at(-1)?.[first! - 1];
           if (argument === undefined)
@@ -211,7 +186,7 @@ export class Machine extends BlockMachine<Value> {
 
   isTrue(expression: Expression): boolean {
     const when = this.condition(expression);
-    if (when !== undefined) return this.holds(when);
+    if (when !== undefined) return this.lines.holds(when);
     const value = this.evaluate(expression);
     if (typeof value !== "boolean") throw new TextError(expression, "a condition", "A number is no condition.");
     return value;
@@ -283,62 +258,8 @@ export class Machine extends BlockMachine<Value> {
       : undefined;
   }
 
-  // --- lines ------------------------------------------------------------------------------------------------------
-
-  private line(word: string, number: number, at: TextPlace): string {
-    if (!Number.isInteger(number) || number < 1)
-      throw new TextError(at, "the number of a line", `There is no line ${word.toUpperCase()}[${number}].`);
-    const key = `${word}${number}`;
-    const kind = KINDS[word]!;
-    const { signals } = this.declared;
-    const numbered = NUMBERED.has(word);
-    const known = numbered
-      ? Object.entries(signals).find(([, line]) => line.kind === kind && line.address === number)?.[0]
-      : undefined;
-    if (known !== undefined) return known;
-    const wanted = numbered ? this.spelt(key) : `${word.toUpperCase()}[${number}]`;
-    const name = Object.hasOwn(signals, wanted) && numbered ? `${word.toUpperCase()}[${number}]` : wanted;
-    signals[name] ??= numbered ? { kind, address: number } : { kind };
-    return name;
-  }
-
-  private read(line: string): boolean | number {
-    const isDigital = this.declared.signals[line]!.kind.startsWith("digital");
-    const value = this.outputs.get(line) ?? this.signals?.read(line);
-    return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
-  }
-
-  private holds(when: Condition): boolean {
-    const value = this.read(when.signal);
-    if ("is" in when) return (value === true) === when.is;
-    return "above" in when ? Number(value) > when.above : Number(value) < when.below;
-  }
-
   condition(expression: Expression): Condition | undefined {
-    if (expression.kind === "unary" && expression.sign === "!") {
-      const inner = this.condition(expression.of);
-      return inner !== undefined && "is" in inner ? { signal: inner.signal, is: !inner.is } : undefined;
-    }
-    if (expression.kind === "index") {
-      const signal = this.lineIn(expression);
-      return signal !== undefined && this.declared.signals[signal]!.kind.startsWith("digital")
-        ? { signal, is: true }
-        : undefined;
-    }
-    if (expression.kind !== "binary") return undefined;
-    const { sign, left, right } = expression;
-    const signal = this.lineIn(left);
-    if (signal === undefined || (right.kind !== "truth" && right.kind !== "number")) return undefined;
-    if (right.kind === "truth")
-      return sign === "=" || sign === "<>" ? { signal, is: right.value === (sign === "=") } : undefined;
-    if (sign !== "<" && sign !== ">") return undefined;
-    return sign === ">" ? { signal, above: right.value } : { signal, below: right.value };
-  }
-
-  private lineIn(expression: Expression): string | undefined {
-    return expression.kind === "index" && expression.of.kind === "variable" && Object.hasOwn(KINDS, expression.of.name)
-      ? this.line(expression.of.name, this.numberOf(expression.indices[0]!), expression)
-      : undefined;
+    return this.lines.condition(expression, of => this.numberOf(of));
   }
 
   // --- instructions -----------------------------------------------------------------------------------------------
@@ -396,8 +317,7 @@ export class Machine extends BlockMachine<Value> {
         return undefined;
       case "select": {
         const number = this.numberOf(action.number);
-        if (action.what === "uframe") this.uframe = number;
-        else this.utool = number;
+        this.setups.inUse[action.what] = number;
         return undefined;
       }
       case "define":
@@ -417,24 +337,24 @@ export class Machine extends BlockMachine<Value> {
     const key = `${what}${this.numberOf(number)}`;
     const isNothing = six.every(each => each === 0);
     const wanted = what === "utool" && isNothing ? "flange" : name === undefined ? this.spelt(key) : this.spelt(name);
-    this.setups.set(key, { matrix, name: wanted });
+    this.setups.define(key, { matrix, name: wanted });
   }
 
   private set({ word, number, value, pulse }: Extract<Action, { kind: "set" }>, at: TextPlace, id: () => string): Step {
     const line = this.numberOf(number);
     const to = this.evaluate(value);
-    if (KINDS[word]!.endsWith("in"))
+    if (kindOfLine(word).endsWith("in"))
       throw new TextError(at, "an output", `${word.toUpperCase()}[${line}] is an input.`);
     if (`${word}${line}` === GRIPPER && typeof to === "boolean" && pulse === undefined)
       return { id: id(), type: "gripper", closed: to };
-    const signal = this.line(word, line, at);
-    if (isSix(to) || (typeof to === "boolean") !== KINDS[word]!.startsWith("digital"))
+    const signal = this.lines.line(word, line, at);
+    if (isSix(to) || (typeof to === "boolean") !== kindOfLine(word).startsWith("digital"))
       throw new TextError(
         at,
-        KINDS[word]!.startsWith("digital") ? "ON or OFF" : "a number",
+        kindOfLine(word).startsWith("digital") ? "ON or OFF" : "a number",
         `${word.toUpperCase()}[${line}] takes no such value.`,
       );
-    this.outputs.set(signal, to);
+    this.lines.write(signal, to);
     return { id: id(), type: "set", signal, to, ...(pulse === undefined ? {} : { pulse_s: this.numberOf(pulse) }) };
   }
 
@@ -461,29 +381,14 @@ export class Machine extends BlockMachine<Value> {
 
   // --- motions ----------------------------------------------------------------------------------------------------
 
-  private setup(what: "uframe" | "utool", number: number, at: TextPlace): Setup {
-    const known = this.setups.get(`${what}${number}`);
-    if (known !== undefined) return known;
-    if (number === 0) return { matrix: NOTHING, name: what === "uframe" ? "world" : "flange" };
-    const name = `${what.toUpperCase()} ${number}`;
-    if (!this.assumed.has(name)) this.assumed.set(name, at);
-    return { matrix: NOTHING, name };
-  }
-  private frameNow(at: TextPlace): Matrix {
-    return this.setup("uframe", this.uframe ?? 0, at).matrix;
-  }
-  private toolNow(at: TextPlace): Matrix {
-    return this.setup("utool", this.utool ?? 0, at).matrix;
-  }
-
   private record({ register, number }: Point, at: TextPlace): PositionRecord {
     const n = this.numberOf(number);
     if (register === "pr") {
       const values = this.register(`pr${n}`, at);
       if (!isSix(values)) throw new TextError(at, "a position", `PR[${n}] holds no position.`);
       return {
-        uf: this.uframe ?? 0,
-        ut: this.utool ?? 0,
+        uf: this.setups.inUse.uframe ?? 0,
+        ut: this.setups.inUse.utool ?? 0,
         joints: false,
         config: undefined,
         values,
@@ -495,8 +400,8 @@ export class Machine extends BlockMachine<Value> {
     const record = this.source.positions.get(this.scopes.at(-1)?.routine ?? "")?.get(n);
     if (record === undefined) throw new TextError(at, "a position in /POS", `P[${n}] is not in the list of positions.`);
     for (const [word, taught, used] of [
-      ["UFRAME", record.uf, this.uframe],
-      ["UTOOL", record.ut, this.utool],
+      ["UFRAME", record.uf, this.setups.inUse.uframe],
+      ["UTOOL", record.ut, this.setups.inUse.utool],
     ] as const) {
       if (used !== undefined && used !== taught)
         throw new TextError(
@@ -561,15 +466,7 @@ export class Machine extends BlockMachine<Value> {
     const six = register === undefined ? undefined : this.register(register, at);
     if (register === undefined || six === undefined || !isSix(six))
       throw new TextError(at, "Offset,PR[n]", "The offset is in no register.");
-    if (
-      six
-        .slice(3)
-        .some(
-          each =>
-            Math.abs(((((each + DEFAULT_WIDE / 2) % DEFAULT_WIDE) + DEFAULT_WIDE) % DEFAULT_WIDE) - DEFAULT_WIDE / 2) >
-            1e-6,
-        )
-    )
+    if (six.slice(3).some(angle_deg => Math.abs(angle_deg - 360 * Math.round(angle_deg / 360)) > 1e-6))
       throw new TextError(at, "an offset that does not turn", "Offsets that turn are not executed here.");
     return { mm: [six[0]!, six[1]!, six[2]!], register };
   }
@@ -606,13 +503,13 @@ export class Machine extends BlockMachine<Value> {
   ): Target {
     const record = this.record(point, at);
     const { values, config } = record;
-    const uf = this.uframe ?? record.uf;
-    const ut = this.utool ?? record.ut;
+    const uf = this.setups.inUse.uframe ?? record.uf;
+    const ut = this.setups.inUse.utool ?? record.ut;
     if (values === undefined)
       throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
-    const frame = this.setup("uframe", uf, at);
-    const tool = this.setup("utool", ut, at);
-    const name = this.toolName(tool);
+    const frame = this.setups.of("uframe", uf, at);
+    const tool = this.setups.of("utool", ut, at);
+    const name = this.setups.toolName(tool);
     if (record.joints) {
       if (shifted !== undefined || inTool !== undefined)
         throw new TextError(at, "a position of X, Y, Z", "A position of joint angles is not shifted here.");
@@ -622,14 +519,8 @@ export class Machine extends BlockMachine<Value> {
       return { q, tool: name };
     }
     const written = inTool === undefined ? fromSix(values) : times(fromSix(values), inTool);
-    const seen: Matrix =
-      shifted === undefined
-        ? written
-        : {
-            rows: written.rows,
-            mm: [written.mm[0] + shifted.mm[0], written.mm[1] + shifted.mm[1], written.mm[2] + shifted.mm[2]],
-          };
-    const named = this.frameName(frame);
+    const seen = shifted === undefined ? written : moved(written, shifted.mm);
+    const named = this.setups.frameName(frame);
     const inPlace = shifted === undefined ? undefined : this.atPlace(shifted.register, written);
     const plain = {
       pose: named === "world" ? this.arm.cell<"frame", "tcp">(times(frame.matrix, seen)) : toPose<"frame", "tcp">(seen),
@@ -660,17 +551,6 @@ export class Machine extends BlockMachine<Value> {
     return { pose: toPose(times(inverted(fromSix(first)), written)), frame: this.spelt(register) };
   }
 
-  private toolName(tool: Setup): string {
-    return tool.name === "flange"
-      ? "flange"
-      : nameIn(this.declared.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
-  }
-  private frameName(frame: Setup): string {
-    return frame.name === "world"
-      ? "world"
-      : nameIn(this.declared.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
-  }
-
   // --- writing a program down -------------------------------------------------------------------------------------
 
   /** The place that an offset belongs to: the position that it is the distance of from the first. */
@@ -686,8 +566,8 @@ export class Machine extends BlockMachine<Value> {
       offset.slice(3).some(each => each !== 0)
     )
       return undefined;
-    const frame = this.setup("uframe", this.uframe ?? 0, { line: 1, column: 1 });
-    const name = this.frameName(frame);
+    const frame = this.setups.now("uframe", { line: 1, column: 1 });
+    const name = this.setups.frameName(frame);
     const matrix = fromSix(present);
     return { frame: name, pose: name === "world" ? this.arm.cell(times(frame.matrix, matrix)) : toPose(matrix) };
   }
@@ -699,14 +579,12 @@ export class Machine extends BlockMachine<Value> {
   override remember(): () => void {
     const values = super.remember();
     const arm = this.arm.remember();
-    const { uframe, utool, timeout, skip, offset, toolOffset, others, jump } = this;
-    const maps = [keep(this.outputs), keep(this.setups), keep(this.differences)];
+    const { timeout, skip, offset, toolOffset, others, jump } = this;
+    const kept = [this.lines.remember(), this.setups.remember(), rememberMap(this.differences)];
     return () => {
       values();
       arm();
-      for (const back of maps) back();
-      this.uframe = uframe;
-      this.utool = utool;
+      for (const back of kept) back();
       this.timeout = timeout;
       this.skip = skip;
       this.offset = offset;

@@ -98,3 +98,9 @@ export function fromPose({ position: [x, y, z], quaternion: [i, j, k, w] }: Pose
     ],
   };
 }
+
+/** The place moved by a distance [mm] along the axes that it is given in. */
+export const moved = ({ rows, mm }: Matrix, [x, y, z]: readonly [number, number, number]): Matrix => ({
+  rows,
+  mm: [mm[0] + x, mm[1] + y, mm[2] + z],
+});

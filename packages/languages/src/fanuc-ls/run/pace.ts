@@ -21,12 +21,3 @@ export function speedOf(value: number, { unit, path }: Pick<Motion, "unit" | "pa
       return { time_s: unit === "sec" ? value : value / 1000 };
   }
 }
-
-/** Remembers what a map holds; the answer brings it back. */
-export function keep<K, V>(map: Map<K, V>): () => void {
-  const kept = [...map];
-  return () => {
-    map.clear();
-    for (const [key, value] of kept) map.set(key, value);
-  };
-}

@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
@@ -264,7 +264,7 @@ export class Machine extends BlockMachine<Value> {
   override remember(): () => void {
     const values = super.remember();
     const arm = this.arm.remember();
-    const outputs = new Map(this.outputs);
+    const outputs = rememberMap(this.outputs);
     const { tool, hasTool, baseName, posture: configuration, via, passes } = this;
     const speed = { ...this.speed };
     const accuracy = { ...this.accuracy };
@@ -272,8 +272,7 @@ export class Machine extends BlockMachine<Value> {
     return () => {
       values();
       arm();
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
+      outputs();
       Object.assign(this, {
         tool,
         hasTool,

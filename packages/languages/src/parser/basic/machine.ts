@@ -1,5 +1,6 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
+import { rememberMap } from "../remember.ts";
 import type { DeclaredCell } from "../declared-cell.ts";
 import {
   BlockMachine,
@@ -249,17 +250,15 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   override remember(): () => void {
     const values = super.remember();
     const arm = this.arm.remember();
-    const outputs = new Map(this.outputs);
+    const outputs = rememberMap(this.outputs);
     const state = { ...this.state };
-    const frames = new Map(this.frames);
+    const frames = rememberMap(this.frames);
     const { tool, hasTool } = this;
     return () => {
       values();
       arm();
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
-      this.frames.clear();
-      for (const [name, value] of frames) this.frames.set(name, value);
+      outputs();
+      frames();
       this.state = { ...state };
       this.tool = tool;
       this.hasTool = hasTool;

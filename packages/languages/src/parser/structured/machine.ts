@@ -1,5 +1,6 @@
 import type { Executed, Step, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
+import { rememberMap } from "../remember.ts";
 import type { Argument, Block, Expression, Routine, Statement } from "./tree.ts";
 
 export type Flow = "next" | "break" | "continue" | "return" | "halt";
@@ -194,12 +195,11 @@ export abstract class BlockMachine<V> {
 
   /** Remembers variables and counts; the answer brings them back. */
   remember(): () => void {
-    const globals = new Map(this.globals);
+    const globals = rememberMap(this.globals);
     const scopes = this.scopes.map(({ routine, names }) => ({ routine, names: new Map(names) }));
     const { idle } = this;
     return () => {
-      this.globals.clear();
-      for (const [name, value] of globals) this.globals.set(name, value);
+      globals();
       this.scopes.splice(
         0,
         this.scopes.length,

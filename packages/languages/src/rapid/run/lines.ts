@@ -1,4 +1,5 @@
 import { holds, type Condition, type SignalLine, type Signals } from "@twincell/core";
+import { rememberMap } from "../../parser/index.ts";
 import type { Expression } from "../../parser/structured/index.ts";
 import type { Value } from "./values.ts";
 
@@ -9,6 +10,13 @@ export const KIND_OF_FUNCTION: Readonly<Record<string, SignalLine["kind"]>> = {
   doutput: "digital-out",
   ainput: "analogue-in",
   aoutput: "analogue-out",
+};
+/** Instructions that wait for a line, with the kind of line each waits for. */
+export const KIND_OF_WAIT: Readonly<Record<string, SignalLine["kind"]>> = {
+  waitdi: "digital-in",
+  waitdo: "digital-out",
+  waitai: "analogue-in",
+  waitao: "analogue-out",
 };
 
 /**
@@ -98,10 +106,6 @@ export class Lines {
 
   /** Remembers what was written; the answer brings it back. */
   remember(): () => void {
-    const outputs = new Map(this.outputs);
-    return () => {
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
-    };
+    return rememberMap(this.outputs);
   }
 }

@@ -27,36 +27,13 @@ import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
 import { inverted, times, toPose, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
-import { KIND_OF_FUNCTION, Lines } from "./lines.ts";
+import { GRIPPER, HALTS, REFUSED, SILENT } from "./instructions.ts";
+import { KIND_OF_FUNCTION, KIND_OF_WAIT, Lines } from "./lines.ts";
 import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
 import { predefined } from "./predefined.ts";
+import { WORLD, WorkObjects, type WorkObject } from "./work-objects.ts";
 import { asFrame, asNumber, asNumbers, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
 
-/** The output that closes the gripper. */
-const GRIPPER = "dogripper";
-/** Instructions that change nothing of where the robot goes. */
-const SILENT = new Set([
-  "singarea",
-  "tperase",
-  "confl",
-  "pathaccset",
-  "worldaccset",
-  "motionsup",
-  "actunit",
-  "deactunit",
-  "clkreset",
-  "clkstart",
-  "clkstop",
-  "cirpathmode",
-  "pathresol",
-  "tunereset",
-  "softdeact",
-  "pdispoff",
-  "eoffsoff",
-  "waitrob",
-]);
-/** Instructions at which the robot stays until somebody starts it again. */
-const HALTS = new Set(["stop", "break", "systemstopaction"]);
 /** Records whose orientation a program may leave unset. */
 const UNSET = new Set(["num", "dnum", "bool", "string", "byte", "clock", "intnum"]);
 const MOST_ITEMS = 100_000;
@@ -73,17 +50,20 @@ interface Motion {
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
   readonly declared: DeclaredCell;
-  /** Work objects that are frames although they change: the places of a pallet that is being read. */
-  readonly places = new Set<string>();
   private readonly source: Source;
   private readonly known: ReadonlyMap<string, Value>;
-  private readonly changing: ReadonlySet<string>;
+  private readonly objects: WorkObjects;
   private readonly lines: Lines;
   private acceleration = 1;
   private override = 1;
   private fastest_mmps = Infinity;
   private asksConfiguration = true;
   private tool: Frame;
+
+  /** Work objects that are frames although they change: the places of a pallet that is being read. */
+  get places(): Set<string> {
+    return this.objects.places;
+  }
 
   /** @param changing  data that get a value while the program runs. */
   constructor(
@@ -97,7 +77,6 @@ export class Machine extends BlockMachine<Value> {
     super(source.routines);
     this.source = source;
     this.known = predefined(robot.maxTcpSpeed_mps);
-    this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
     this.declared = declared;
     this.lines = new Lines(
@@ -106,6 +85,7 @@ export class Machine extends BlockMachine<Value> {
       name => this.spelt(name),
       name => this.variable(name) === undefined,
     );
+    this.objects = new WorkObjects(source, changing, declared, this.arm);
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
     for (const datum of source.data) this.make(datum, this.globals);
   }
@@ -116,7 +96,7 @@ export class Machine extends BlockMachine<Value> {
     const { name, type, value, sizes } = datum;
     if (value !== undefined) into.set(name, this.evaluate(value));
     else if (sizes.length > 0) into.set(name, this.empty(sizes, type));
-    else if (UNSET.has(type)) into.set(name, type === "bool" ? false : type === "string" ? "" : 0);
+    else if (UNSET.has(type)) into.set(name, unsetValue(type));
   }
 
   private empty(sizes: readonly Expression[], type: string): Value {
@@ -124,10 +104,7 @@ export class Machine extends BlockMachine<Value> {
     const length = this.numberOf(size!);
     if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS)
       throw new TextError(size!, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
-    return Array.from(
-      { length },
-      (): Value => (rest.length > 0 ? this.empty(rest, type) : type === "bool" ? false : type === "string" ? "" : 0),
-    );
+    return Array.from({ length }, (): Value => (rest.length > 0 ? this.empty(rest, type) : unsetValue(type)));
   }
 
   protected override prepare(routine: Routine, names: Map<string, Value>): void {
@@ -473,14 +450,7 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private waited(name: string, args: Arguments): Condition {
-    const kind =
-      name === "waitdi"
-        ? "digital-in"
-        : name === "waitdo"
-          ? "digital-out"
-          : name === "waitai"
-            ? "analogue-in"
-            : "analogue-out";
+    const kind = KIND_OF_WAIT[name]!;
     const signal = this.lines.line(args.nameOf(0, "a line"), kind);
     const value = args.number(1, "a value");
     if (kind.startsWith("digital")) return { signal, is: value !== 0 };
@@ -547,7 +517,7 @@ export class Machine extends BlockMachine<Value> {
       this.arm.atJoints(joints);
       return { ...common, path: "ptp", target: { q: joints.map(angle => (angle / 180) * Math.PI), tool } };
     }
-    const frame = this.workObject(object);
+    const frame = object === undefined ? WORLD : this.objects.of(object, of => this.evaluate(of));
     const target = this.target(goal, frame, tool, name === "movej", true);
     const passing = via === undefined ? {} : { via: this.target(via, frame, tool, false, false) };
     return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
@@ -565,30 +535,9 @@ export class Machine extends BlockMachine<Value> {
     );
   }
 
-  /** A work object: where it is in the base of the robot, and which frame it is for the steps. */
-  private workObject(object: Expression | undefined): { readonly name: string; readonly base: Frame } {
-    if (object === undefined || (object.kind === "variable" && object.name === "wobj0"))
-      return { name: "world", base: { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] } };
-    const [holds, , , user, own] = asRecord(this.evaluate(object), object, 5, "a work object");
-    if (holds !== false)
-      throw new TextError(
-        object,
-        "a work object that stands still",
-        "Work objects that the robot holds are not executed here.",
-      );
-    const base = times(asFrame(user, object), asFrame(own, object));
-    if (object.kind !== "variable") return { name: "world", base };
-    const { name } = object;
-    const spelt = this.spelt(name);
-    if (this.places.has(spelt)) return { name: spelt, base };
-    if (this.changing.has(name)) return { name: "world", base };
-    this.declared.frames[spelt] ??= this.arm.world(base);
-    return { name: spelt, base };
-  }
-
   private target(
     expression: Expression,
-    frame: { readonly name: string; readonly base: Frame },
+    frame: WorkObject,
     tool: string,
     choosesPosture: boolean,
     isEnd: boolean,
@@ -619,25 +568,8 @@ export class Machine extends BlockMachine<Value> {
 
   // --- writing a program down -------------------------------------------------------------------------------------
 
-  /** The place that a work object is, in the frame whose user frame it shares. */
   placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined {
-    const value = this.variable(variable);
-    if (typeof value !== "object" || value.length !== 5 || !this.changing.has(variable)) return undefined;
-    const at = { line: 1, column: 1 };
-    const user = asFrame(value[3], at);
-    const own = asFrame(value[4], at);
-    const like = this.source.data.find(
-      ({ type, name }) =>
-        type === "wobjdata" &&
-        name !== variable &&
-        !this.changing.has(name) &&
-        JSON.stringify(asRecord(this.globals.get(name), at, 5, "a work object")[3]) === JSON.stringify(value[3]),
-    );
-    if (like === undefined) return { frame: "world", pose: this.arm.world(times(user, own)) };
-    const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at);
-    const spelt = this.spelt(like.name);
-    this.declared.frames[spelt] ??= this.arm.world(times(user, shared));
-    return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
+    return this.objects.placeIn(variable, this.variable(variable), this.globals);
   }
 
   edge(): void {
@@ -662,11 +594,5 @@ export class Machine extends BlockMachine<Value> {
   }
 }
 
+const unsetValue = (type: string): Value => (type === "bool" ? false : type === "string" ? "" : 0);
 const NO_AXES: Value = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];
-const REFUSED: Readonly<Record<string, string>> = {
-  triggl: "Events on the way of a move are not executed here.",
-  triggj: "Events on the way of a move are not executed here.",
-  pdispset: "Program displacement is not executed here: put it into the work object.",
-  pdispon: "Program displacement is not executed here: put it into the work object.",
-  eoffsset: "Offsets of external axes are not executed here.",
-};

@@ -9,7 +9,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Do,
@@ -325,14 +325,13 @@ export class Machine extends BlockMachine<Value> {
     const values = super.remember();
     const arm = this.arm.remember();
     const { tool, hasTool } = this;
-    const outputs = new Map(this.outputs);
+    const outputs = rememberMap(this.outputs);
     return () => {
       values();
       arm();
       this.tool = tool;
       this.hasTool = hasTool;
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
+      outputs();
     };
   }
 

@@ -11,7 +11,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -542,13 +542,12 @@ export class Machine extends BlockMachine<Value> {
     const values = super.remember();
     const arm = this.arm.remember();
     const { moving } = this;
-    const outputs = [...this.outputs];
+    const outputs = rememberMap(this.outputs);
     return () => {
       values();
       arm();
       this.moving = moving;
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
+      outputs();
     };
   }
 }
