@@ -1,6 +1,5 @@
 import type { Branch } from "../../kinematics/branch.ts";
 import { explainReach } from "../../kinematics/explain.ts";
-
 import { solveAll, solverScratch } from "../../kinematics/inverse.ts";
 import { PoseFit, type PoseFitOptions } from "../../kinematics/pose-fit.ts";
 import type { Reach } from "../../kinematics/reach.ts";
