@@ -217,7 +217,7 @@ describe("a robot of a server", () => {
     expect(Math.abs(stood[0]! - turned(1)[0]!)).toBeGreaterThan(0.1);
   }, 180_000);
 
-  test("T-10 after an emergency stop no move is taken until a reset, whose answer comes when the robot would move again", async () => {
+  test("T-10 after an emergency stop no move is taken until a reset; after its answer one is", async () => {
     const arm = [...at, "--station", "arm"];
     const move = (by_rad: number): Promise<Ran> =>
       twincell("move", ...arm, "--joints", turned(by_rad).join(","), "--ratio", "1");

@@ -67,7 +67,7 @@ const pointed = (program: Taught, id: string, position: readonly number[]): void
 };
 
 describe("check", () => {
-  test("--json: a bad step says what binds it and up to three proven changes; following the first makes it good", () => {
+  test("--json: a bad step says what binds it and up to three proven changes; the first makes it good", () => {
     const path = changed("tilted-away", program => {
       pointed(program, "s3", [0.95, 0.62, 0.45]);
     });

@@ -97,6 +97,12 @@ export const manualMode = (robot: Robot): Refusal =>
     `${robot.name} is in manual mode: its teach pendant has it.`,
     "Turn the mode switch at the robot to automatic.",
   );
+export const stoppedInReset = (robot: Robot): Refusal =>
+  refusal(
+    "controller.stopped-in-reset",
+    `${robot.name} was stopped while it was being reset: the stop stays.`,
+    "Reset it again when the way is clear.",
+  );
 export const stillBraking = (robot: Robot): Refusal =>
   refusal("controller.braking", `${robot.name} has not come to rest yet.`, "Reset it when it stands.");
 export const guardStillOpen = (robot: Robot): Refusal =>

@@ -11,7 +11,7 @@ import {
   type ProgramCertificateVerdict,
   type Verdict,
 } from "@twincell/core";
-import { cellGeometry, nameOfFrame, objectsOfFrame } from "@twincell/project";
+import { cellGeometry, framesWith, nameOfFrame, objectsOfFrame } from "@twincell/project";
 import { executeText } from "@twincell/languages";
 import { given, type Given } from "../io/arguments.ts";
 import { inputsFrom } from "../io/moments.ts";
@@ -25,13 +25,15 @@ import { UseFault, type Command } from "../io/usage.ts";
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, torques, branches, collision",
-  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE] [--json]
+  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M]
+                [--junit FILE] [--certificate FILE | --verify FILE] [--json]
 
-Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
-known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
+Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad.
+Where torques are known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
 
-  --as-text       FILE is a vendor's program text, several of one program, a folder or ZIP of them, or a cell whose selected
-                  program is a text: it is executed as its controller would and judged; each step says its "file" and "line"; inputs: --inputs
+  --as-text       FILE is a vendor's program text, several of one program, a folder or ZIP of them, or a cell whose
+                  selected program is a text: it is executed as its controller would and judged; each step says its
+                  "file" and "line"; inputs: --inputs
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
@@ -39,10 +41,10 @@ known, which joint is asked most goes to stderr as well; where they are not, "to
                   changes with which the whole program was checked again, the smallest first: "kind", "amount" [rad, m],
                   "replace", "alsoReplace", "insertBefore" (steps), "moveFrame", "moveBase" [m], and what it "reaches"
   --junit FILE    the same as a JUnit report, one test case per step
-  --certificate FILE  writes what proves the program clear of contact: for every motion and pair of solids, stretches of time
-                  and the distance that is proven for them; wants --cell
-  --verify FILE   does not judge, but proves such a file again by another method, for this program in this cell; ends with 1 when it
-                  does not hold
+  --certificate FILE  writes what proves the program clear of contact: for every motion and pair of solids, stretches
+                  of time and the distance that is proven for them; wants --cell
+  --verify FILE   does not judge, but proves such a file again by another method, for this program in this cell; ends
+                  with 1 when it does not hold
 
 ${ROBOT_HELP}`,
   async run(args) {
@@ -94,6 +96,7 @@ ${ROBOT_HELP}`,
     if (options.flag("json")) {
       const parts = document && {
         objectsOf: (frame: string) => objectsOfFrame(document, frame),
+        framesOf: (frame: string) => framesWith(document, frame),
         nameOf: (frame: string) => nameOfFrame(document, frame),
       };
       const search = new RepairSearch(program, robot, { margin_m, ...(cell ? { cell } : {}), ...parts }, checked);

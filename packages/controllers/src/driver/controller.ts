@@ -24,6 +24,7 @@ import {
   percentRefusal,
   programFault,
   protective,
+  stoppedInReset,
 } from "../refusals.ts";
 import type { ControllerAdapter } from "./adapter.ts";
 import { keepLink } from "./link.ts";
@@ -209,7 +210,7 @@ export function createRealController(options: RealOptions): RealController {
     const look = (): Refusal | "wait" | null => {
       if (isClosed) return closed(name);
       if (!link.isOpen) return linkDown(name, link.report.sentence);
-      if (!wanted()) return wasStopped(robot);
+      if (!wanted()) return stoppedInReset(robot);
       if (lent.safety !== "emergency-stop" && lent.safety !== "protective-stop") return null;
       return scheduler.now_s() >= until_s ? resetUnseen(robot, RESET_SEEN_S) : "wait";
     };
@@ -236,7 +237,7 @@ export function createRealController(options: RealOptions): RealController {
     const outcome = await adapter.reset(wanted);
     // An order that was on its way when the stop came may have switched on what the stop had switched off.
     if (emergencies !== emergenciesBefore) adapter.stop(true);
-    if (!wanted()) return refuse(wasStopped(robot));
+    if (!wanted()) return refuse(stoppedInReset(robot));
     if (outcome.kind !== "done") return refuse(outcome.why);
     const why = await stopCleared(wanted);
     return why ? refuse(why) : DONE;

@@ -24,6 +24,7 @@ import {
 } from "./codec-rmi.ts";
 import { putFiles } from "./ftp-client.ts";
 import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
+import { stoppedInReset } from "../refusals.ts";
 import { DONE, refused, stopped } from "../outcomes.ts";
 
 export interface FanucAdapterOptions {
@@ -497,7 +498,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
     async reset(wanted) {
       const id = await order("FRC_Reset");
       if (id !== RMI_ERROR.ok) return refused(said(id, "Clear the cause at the robot first."));
-      if (!wanted()) return refused(wasStopped());
+      if (!wanted()) return refused(stoppedInReset(robot));
       locked = false;
       fault = "";
       return DONE;

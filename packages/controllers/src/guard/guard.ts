@@ -12,7 +12,7 @@ import {
 } from "@twincell/core";
 import type { CellMember } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
-import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
+import { jointNumberRefusal, jointRefusal, percentRefusal, stoppedInReset } from "../refusals.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
 import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
 import {
@@ -22,7 +22,6 @@ import {
   leaseGivenBack,
   linkWentDown,
   nowhereSafe,
-  stoppedMeanwhile,
   switchLetGo,
   targetTooNear,
   tooFast,
@@ -469,7 +468,7 @@ export function createGuard(options: GuardOptions): Guard {
           const outcome = await controller.reset();
           if (outcome.kind !== "done") return outcome;
           // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
-          return before === stops ? act({ type: "reset", who }) : refused(stoppedMeanwhile(robot.name));
+          return before === stops ? act({ type: "reset", who }) : refused(stoppedInReset(robot));
         },
         ...(jumpTo
           ? {

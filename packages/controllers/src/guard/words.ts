@@ -101,11 +101,6 @@ export const switchLetGo: Refusal = {
   sentence: "The enabling switch was let go.",
   hint: "Keep it pressed for as long as the robot is to move.",
 };
-export const stoppedMeanwhile = (name: string): Refusal => ({
-  code: "guard.stopped-meanwhile",
-  sentence: `${name} was stopped while it was being reset: the stop stays.`,
-  hint: "Reset it again when the way is clear.",
-});
 export const leaseGivenBack: Refusal = {
   code: "guard.no-lease",
   sentence: "Command was given back while the robot moved.",

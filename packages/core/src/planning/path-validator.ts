@@ -82,13 +82,13 @@ export class PathValidator {
   wayOut(from: ArrayLike<number>, way: readonly ArrayLike<number>[]): number {
     if (this.free(from)) return 0;
     this.collider.place(from);
-    const near = this.#pairs.map((pair, i) => (this.#excused(pair) ? Infinity : this.#distanceAt(i)));
+    const near = this.#pairs.map((pair, i) => (this.#rules.excused(pair) ? Infinity : this.#distanceAt(i)));
     const least = near.slice();
     for (const [count, q] of way.entries()) {
       this.collider.place(q);
       let outside = true;
       for (let i = 0; i < near.length; i++) {
-        if (this.#excused(this.#pairs[i]!)) continue;
+        if (this.#rules.excused(this.#pairs[i]!)) continue;
         const distance_m = this.#distanceAt(i);
         if (distance_m === Infinity) continue;
         outside = false;
@@ -99,10 +99,6 @@ export class PathValidator {
       if (outside) return count + 1;
     }
     return way.length;
-  }
-
-  #excused(pair: SolidPair): boolean {
-    return this.#rules.excused(pair);
   }
 
   /** Distance of a pair in the posture last placed, where it is below its margin; Infinity where it is not. */

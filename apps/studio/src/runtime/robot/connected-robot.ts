@@ -3,6 +3,8 @@ import {
   solveAll,
   explainReach,
   type CommandOutcome,
+  type MoveStep,
+  type Speed,
   type Pose,
   type Step,
   cartesianWay,
@@ -58,6 +60,16 @@ export interface ConnectedRobot {
   drivesOff(): void;
   reset(): Promise<CommandOutcome>;
 }
+
+/** The motion of a jog: a step of its own, without a zone. */
+const jogStep = (path: "ptp" | "lin", q_rad: readonly number[], speed: Speed): MoveStep => ({
+  id: "jog",
+  type: "move",
+  path,
+  target: { q: [...q_rad] },
+  speed,
+  blend_m: 0,
+});
 
 /** @param id  of an open connection; commands to one that is gone are refused. */
 export function connectedRobot(id: string): ConnectedRobot {
@@ -150,35 +162,13 @@ export function connectedRobot(id: string): ConnectedRobot {
     jogJoint: (joint, by_rad) =>
       jogged(
         live => jointWay(live.robot, live.q_rad, joint, by_rad),
-        (q, share, despite) =>
-          step(
-            {
-              id: "jog",
-              type: "move",
-              path: "ptp",
-              target: { q: [...q] },
-              speed: { ratio: JOG_RATIO * share },
-              blend_m: 0,
-            },
-            despite,
-          ),
+        (q, share, despite) => step(jogStep("ptp", q, { ratio: JOG_RATIO * share }), despite),
         Number.isFinite(by_rad),
       ),
     jogCartesian: (axis, by, frame) =>
       jogged(
         live => cartesianWay(live.robot, live.q_rad, axis, by, frame),
-        (q, share, despite) =>
-          step(
-            {
-              id: "jog",
-              type: "move",
-              path: "lin",
-              target: { q: [...q] },
-              speed: { mps: JOG_MPS * share },
-              blend_m: 0,
-            },
-            despite,
-          ),
+        (q, share, despite) => step(jogStep("lin", q, { mps: JOG_MPS * share }), despite),
         Number.isFinite(by),
       ),
     setGripper: closed => step({ id: "gripper", type: "gripper", closed }),

@@ -48,7 +48,7 @@ async function press(to: number, free: number, more: Partial<Parameters<typeof h
   return { now, speeds, said: outcome.kind === "done" ? "done" : outcome.why.code };
 }
 
-test("towards something in the way it goes slower the nearer it is and stands 8 to 18 mm before it, for 2,000 seeded distances", async () => {
+test("nearer to something it goes slower and stands 8 to 18 mm before it, for 2,000 seeded distances", async () => {
   const random = seededRandom(12);
   for (let n = 0; n < 2000; n++) {
     const free = 0.1 + 2 * random();
@@ -61,7 +61,7 @@ test("towards something in the way it goes slower the nearer it is and stands 8 
   }
 });
 
-test("a free way is gone in one motion; a refusal, a stop and a key let go end it at once; no way is said to be none", async () => {
+test("a free way is gone in one motion; a refusal, a stop, a key let go end it; no way is said to be none", async () => {
   expect(await press(0.5, 9)).toMatchObject({ speeds: [1], said: "done" });
   expect(await press(0, 9)).toMatchObject({ speeds: [], said: "jog.end" });
   expect(await press(1, 0.5, { isHeld: () => false })).toMatchObject({ speeds: [1], said: "done" });
@@ -71,7 +71,7 @@ test("a free way is gone in one motion; a refusal, a stop and a key let go end i
   expect(await press(1, 0)).toMatchObject({ now: 0, speeds: [], said: "link 6 post" });
 });
 
-test("who stands too near to something already is led out of it slowly, then goes as ever; deeper it goes nowhere", async () => {
+test("what stands too near to something is led out slowly, then goes as ever; deeper it goes nowhere", async () => {
   const out = (count: number) => ({ wayOut: (way: readonly (readonly number[])[]) => Math.min(count, way.length) });
   expect(await press(1, 0.5, out(3))).toMatchObject({ speeds: [0.1, 1, 0.35, 0.1], said: "link 6 post" });
   expect(await press(1, 9, out(3))).toMatchObject({ now: 1, speeds: [0.1, 1], said: "done" });
@@ -80,7 +80,7 @@ test("who stands too near to something already is led out of it slowly, then goe
   expect(await press(1, 0)).toMatchObject({ now: 0, speeds: [], said: "link 6 post" });
 });
 
-test("a virtual UR10e jogged about its first joint stands before the post, touches nothing, and leaves it when it stands too near", async () => {
+test("a virtual UR10e jogged at a post stands before it, and comes away when it stands too near", async () => {
   const robot = robotById("ur10e")!;
   const scheduler = manualScheduler();
   const ready = robot.home_rad.map((q, i) => (i === 1 ? q + 0.8 : q));

@@ -1,9 +1,10 @@
 import type { CommandOutcome, Robot, Scheduler } from "@twincell/core";
 import { DONE, refused } from "../../outcomes.ts";
+import { stoppedInReset } from "../../refusals.ts";
 import type { RwsClient } from "./rws-client.ts";
 import type { PanelState } from "./rws-state.ts";
 import { pointToMain, putBack, startProgram, stopProgram } from "./text.ts";
-import { manualThere, noGuiding, refusedThere, wasStopped } from "./words.ts";
+import { manualThere, noGuiding, refusedThere } from "./words.ts";
 
 export interface BringUpOptions {
   readonly client: RwsClient;
@@ -59,7 +60,7 @@ export async function bringUp({
   if (panel.mode === "manual") return refused(manualThere(robot));
   // What was told last may be older than the stop.
   await until(() => true, ctrlstate, "ctrlstate");
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   if (panel.ctrl !== "motoron") {
     const on = await client.post(`${ctrlstate}?action=setctrlstate`, { "ctrl-state": "motoron" });
     if (on.kind !== "answer")
@@ -71,7 +72,7 @@ export async function bringUp({
         refusedThere("Switching the motors on", panel.words === "" ? "they did not come on." : panel.words),
       );
   }
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   await until(() => true, execution, "ctrlexecstate");
   if (isGuided()) return DONE;
   if (panel.isRunning) {
@@ -79,18 +80,18 @@ export async function bringUp({
     if (!(await until(() => !panel.isRunning, execution, "ctrlexecstate")))
       return refused(refusedThere("Stopping the program", "it goes on running."));
   }
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   // Only the program that waits for targets is started by a reset: whatever else is there would move by itself.
   const why = await putBack(client, left);
   if (why) return refused(why);
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   const pointed = await pointToMain(client);
   if (pointed.kind !== "answer")
     return refused(refusedThere("Setting the program pointer to PROC main", pointed.sentence));
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   const started = await startProgram(client, "forever");
   if (started.kind !== "answer") return refused(refusedThere("Starting the program", started.sentence));
   const guided = await until(isGuided);
-  if (!wanted()) return refused(wasStopped(robot));
+  if (!wanted()) return refused(stoppedInReset(robot));
   return guided ? DONE : refused(noGuiding(robot));
 }

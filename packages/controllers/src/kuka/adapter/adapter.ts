@@ -9,7 +9,7 @@ import { isKukaModel } from "../models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
 import { handKrl, programOf, runKrl } from "./text.ts";
-import { wasStopped } from "../../driver/words.ts";
+import { stoppedInReset } from "../../refusals.ts";
 import * as say from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -295,14 +295,14 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
     if (!own || !now) return refused(say.closedHere);
     if (loop) return refused(loop);
     if (!(await own.write([[TWC.stop, "TRUE"]]))) return refused(say.notTaken);
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     if (!now.ready) await switchOn(own, now, wanted);
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     if (!now.ready) return refused(say.drivesOff);
     if (types.includes(C3_TYPE.confirmAll)) await own.order({ kind: "confirm-all" });
     const started = now.loopRuns ? DONE : await startLoop(own, now);
     if (started.kind !== "done") return started;
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     return (await own.write([[TWC.lock, "FALSE"]])) ? DONE : refused(say.notTaken);
   }
   /** Over the wires of the cell, where there are any: heard in EXT only. */

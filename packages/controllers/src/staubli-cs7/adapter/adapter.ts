@@ -1,4 +1,5 @@
 import type { CommandOutcome, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
+import { stoppedInReset } from "../../refusals.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
@@ -374,7 +375,7 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
         return refused(noReset(stateWords(state)));
       const error = await tell(["ENABLE POWER"]);
       if (error !== null) return refused(noReset(`The controller refused: ${error}`));
-      if (!wanted()) return refused(wasStopped(robot));
+      if (!wanted()) return refused(stoppedInReset(robot));
       resetting = true;
       return DONE;
     },

@@ -18,7 +18,7 @@ import { GROUPS, INPUTS, Orders } from "./orders.ts";
 import { primaryClient, type PrimaryClient } from "./primary-client.ts";
 import { openRtde, type RtdeClient } from "./rtde-client.ts";
 import { GRIPPER_LINE, OUTPUTS, RATE_HZ, UrReading } from "./state.ts";
-import { wasStopped } from "../../driver/words.ts";
+import { stoppedInReset } from "../../refusals.ts";
 import * as words from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -311,21 +311,21 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
       ))
     )
       return refused(words.tookTooLong(robot, "free of its safety stop", PROGRAM_S));
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     if (reading.robotMode < ROBOT_MODE.IDLE) {
       const why = await tell(at, "power on", REPLIES.poweringOn);
       if (why) return refused(why);
       if (!(await until(() => !wanted() || reading.robotMode >= ROBOT_MODE.IDLE, POWER_S)))
         return refused(words.tookTooLong(robot, "powered on", POWER_S));
     }
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     if (reading.robotMode !== ROBOT_MODE.RUNNING) {
       const why = await tell(at, "brake release", REPLIES.releasing);
       if (why) return refused(why);
       if (!(await until(() => !wanted() || reading.robotMode === ROBOT_MODE.RUNNING, POWER_S)))
         return refused(words.tookTooLong(robot, "free of its brakes", POWER_S));
     }
-    if (!wanted()) return refused(wasStopped(robot));
+    if (!wanted()) return refused(stoppedInReset(robot));
     at.said = "";
     const why = reading.isIdle ? await program() : null;
     return why ? refused(why) : DONE;

@@ -35,6 +35,8 @@ export interface RepairScene {
   readonly postures: PathFit;
   readonly step: MoveStep;
   readonly finding: Finding;
+  /** The frames that are moved with one of them, itself among them. */
+  readonly framesOf: (frame: string) => readonly string[];
 }
 
 /** Kinds that turn nothing and move nothing have an effort of their own. */
@@ -166,9 +168,10 @@ export function partOf({ moves, program, step }: RepairScene): string | undefine
 export function* partShifts(scene: RepairScene, nameOf: (frame: string) => string): Generator<Candidate> {
   const frame = partOf(scene);
   if (frame === undefined) return;
+  const along = scene.framesOf(frame);
   const inFrame = new Set(
     scene.moves.flatMap(({ move, written }) =>
-      "pose" in move.step.target && move.step.target.frame === frame ? [written] : [],
+      "pose" in move.step.target && along.includes(move.step.target.frame) ? [written] : [],
     ),
   );
   for (const { by_m, amount } of shifts(scene, id => inFrame.has(id), 1, MOST_SHIFT_M, scene.postures)) {

@@ -45,7 +45,7 @@ export const TILT: ChangeSearch = {
 /**
  * Moved level with the base, up to a metre.
  *
- * @param outward_rad  the direction that comes first: from the base to the thing, so that “towards the robot” is one.
+ * @param outward_rad  the first direction: from the base to the thing, so that “towards the robot” is one of them.
  */
 export const levelShift = (outward_rad: number, most_m = 1): ChangeSearch => ({
   directions: 24,

@@ -28,7 +28,7 @@ describe("what binds a pose", () => {
     ["abb_irb120", 1],
     ["kuka_kr6r900sixx", 2],
   ])(
-    "on 5000 poses that %s cannot reach it is what trying every posture says: which joint by how much, or how far the wrist is off",
+    "on 5000 poses that %s cannot reach it is what trying every posture says: joint and angle, or distance",
     (id, seed) => {
       const robot = robotById(id)!;
       const wrist = new WristDistance(robot);
@@ -88,7 +88,7 @@ describe("the least repair of a pose", () => {
     ["abb_irb120", 4],
     ["kuka_kr6r900sixx", 5],
   ])(
-    "on 5000 poses that %s cannot reach every repair reaches, a degree inside the limits, half of them in less than 5 ms on any machine (bench explain has the rest)",
+    "on 5000 poses that %s cannot reach every repair reaches, a degree inside the limits, the median in 5 ms",
     (id, seed) => {
       const robot = robotById(id)!;
       const fits = reachable(robot);

@@ -69,7 +69,10 @@ export function explainCause(cause: PoseCause): string {
     case "reach":
       return explainReach(cause.reach);
     case "branch":
-      return `With ${branchWords(cause.wanted)}: ${explainReach(cause.reach)} With ${branchWords(cause.instead)} it can be reached.`;
+      return [
+        `With ${branchWords(cause.wanted)}: ${explainReach(cause.reach)}`,
+        `With ${branchWords(cause.instead)} it can be reached.`,
+      ].join(" ");
     case "collision":
       return cause.postures === 1
         ? "The one posture that reaches the pose touches something."

@@ -61,7 +61,7 @@ export function repairAll(
       continue;
     }
     applied.push({ step, repair: best });
-    const next = withRepair(so, step, best, asked.cell, asked.objectsOf);
+    const next = withRepair(so, step, best, asked.cell, asked);
     so = next.program;
     const stood = asked.worldFromBase ?? asked.cell?.worldFromBase ?? identity<"world", "base">();
     asked = {

@@ -10,7 +10,7 @@ import type { Plan } from "../../trajectory/plan.ts";
 import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
 import { armScratch, flangePose } from "../../kinematics/forward.ts";
 import { sampleSegment } from "../../trajectory/sample.ts";
-import { applyRepair } from "../../program/edit.ts";
+import { applyRepair, moveFrameBy } from "../../program/edit.ts";
 import type { MoveStep, Program } from "../../program/program.ts";
 import { everyStep, stepById } from "../../program/walk.ts";
 import { checkProgram, type Checked, type CheckOptions } from "../check.ts";
@@ -35,6 +35,8 @@ import { PathFit, placedMoves, type PlacedMove } from "./path-fit.ts";
 export interface RepairOptions extends Omit<CheckOptions, "certify" | "onProgress"> {
   /** Ids of the objects that are moved with a frame of the program; none by default. */
   readonly objectsOf?: (frame: string) => readonly string[];
+  /** The frames of the program that are moved with one of them, itself among them; it alone by default. */
+  readonly framesOf?: (frame: string) => readonly string[];
   /** What a person calls what stands in a frame; the frame's own name by default. */
   readonly nameOf?: (frame: string) => string;
   /** Whether the robot itself may be moved; true by default. */
@@ -63,6 +65,8 @@ export interface RepairOutcome {
     readonly limit: number;
     readonly unit: "rad" | "m";
   };
+  /** The posture at the end of the step then; left out where it has no motion. */
+  readonly q_rad?: readonly number[];
   readonly duration_s: number;
   /** Against the program as it was; null where that one could not be laid out whole. */
   readonly change_s: number | null;
@@ -166,6 +170,7 @@ export class RepairSearch {
       postures,
       step,
       finding,
+      framesOf: options.framesOf ?? alone,
     };
     const nameOf = options.nameOf ?? ((frame: string) => frame);
     const kinds: readonly (readonly [name: string, candidates: Iterable<Candidate>])[] = [
@@ -257,6 +262,7 @@ export class RepairSearch {
     const worse = after.verdict.steps.some(step => step.verdict === "bad" && passes(before.get(step.id) ?? "ok"));
     const mended = after.verdict.steps.find(step => step.id === id);
     if (worse || mended === undefined || !passes(mended.verdict)) return undefined;
+    const end = after.plan.segments.findLast(segment => segment.step === id && segment.kind === "motion");
     const joint = finding.joint === undefined ? undefined : this.goesTo(after.plan, id, finding.joint);
     return {
       ...repair,
@@ -265,6 +271,7 @@ export class RepairSearch {
       effort,
       reaches: {
         ...(joint === undefined ? {} : { joint }),
+        ...(end === undefined ? {} : { q_rad: Array.from(end.q_rad.slice(-robot.arm.joints.length)) }),
         duration_s: after.verdict.duration_s,
         change_s: this.whole ? after.verdict.duration_s - checked.verdict.duration_s : null,
         clearance_m: after.verdict.clearance_m,
@@ -346,9 +353,8 @@ export class RepairSearch {
     const [, , down] = rotate(worldFromTcp.quaternion, [0, 0, 1]);
     const off = degrees(Math.acos(Math.max(-1, Math.min(1, -down))));
     const [x, y] = baseFromTcp.position;
-    return [
-      `There the tool stands ${off.toFixed(0)}° off straight down, ${(Math.hypot(x, y) * 1000).toFixed(0)} mm from axis 1.`,
-    ];
+    const fromAxis_mm = (Math.hypot(x, y) * 1000).toFixed(0);
+    return [`There the tool stands ${off.toFixed(0)}° off straight down, ${fromAxis_mm} mm from axis 1.`];
   }
 }
 
@@ -358,11 +364,15 @@ export function withRepair(
   id: string,
   repair: Repair,
   cell: CellGeometry | undefined,
-  objectsOf: (frame: string) => readonly string[] = () => [],
+  { objectsOf = () => [], framesOf = alone }: Pick<RepairOptions, "objectsOf" | "framesOf"> = {},
 ): { readonly program: Program; readonly cell?: CellGeometry } {
-  const changed = applyRepair(program, id, repair);
-  if (cell === undefined) return { program: changed };
   const { moveFrame, moveBase } = repair;
+  const others = moveFrame === undefined ? [] : framesOf(moveFrame.frame).filter(frame => frame !== moveFrame.frame);
+  const changed = others.reduce(
+    (so, frame) => moveFrameBy(so, frame, moveFrame!.by_m),
+    applyRepair(program, id, repair),
+  );
+  if (cell === undefined) return { program: changed };
   const along = new Set(moveFrame === undefined ? [] : objectsOf(moveFrame.frame));
   return {
     program: changed,
@@ -395,8 +405,15 @@ export function checkRepaired(
   id: string,
   repair: Repair,
 ): Checked {
-  const repaired = withRepair(program, id, repair, options.cell, options.objectsOf);
-  const { objectsOf: _objects, nameOf: _name, movesBase: _base, detourLooks: _looks, ...asked } = options;
+  const repaired = withRepair(program, id, repair, options.cell, options);
+  const {
+    objectsOf: _objects,
+    framesOf: _frames,
+    nameOf: _name,
+    movesBase: _base,
+    detourLooks: _looks,
+    ...asked
+  } = options;
   const stood = options.worldFromBase ?? options.cell?.worldFromBase ?? identity<"world", "base">();
   return checkProgram(repaired.program, robot, {
     ...asked,
@@ -405,6 +422,7 @@ export function checkRepaired(
   });
 }
 
+const alone = (frame: string): readonly string[] => [frame];
 export const passes = (verdict: StepVerdict): boolean => verdict === "ok" || verdict === "warn";
 export const badOf = (verdict: Verdict): readonly string[] =>
   verdict.steps.filter(step => step.verdict === "bad").map(({ id }) => id);
