@@ -42,7 +42,7 @@ export const direct = {
   result: "Result",
   moved: "Done.",
   noJoint: (joint: number, count: number) => `There is no joint ${joint}: this robot has joints 1 to ${count}.`,
-  inTheWay: (a: string, b: string) => `${a} is about to touch ${b}.`,
+  inTheWay: (a: string, b: string) => `Stopped before ${a} touches ${b}.`,
   inTheWayHint: "Jog away from it, or go nearer in steps.",
   jogEnd: "The arm goes no farther in this direction without a joint reaching its limit or a singularity.",
   jogEndHint: "Jog single joints, or in another direction.",
