@@ -11,6 +11,7 @@ import { releaseAll } from "./runtime/jog/pressed-inputs.ts";
 import { startJogging } from "./runtime/jog/jogger.ts";
 import { hold, startPhysics } from "./runtime/physics/physics.ts";
 import { pause, startPlayhead } from "./runtime/history/playhead.ts";
+import { startRepairing } from "./runtime/planning/repairing.ts";
 import { startPreview } from "./runtime/planning/preview.ts";
 import { startTexts } from "./runtime/text-program.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
@@ -81,6 +82,7 @@ export function boot(): void {
   watchCollisions();
   startTexts();
   const checking = startChecking();
+  startRepairing();
   startCommands(checking);
   const beat = (now_ms: number): void => {
     tick(now_ms);

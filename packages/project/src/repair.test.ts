@@ -1,8 +1,9 @@
-import { identity } from "@twincell/core";
+import { identity, type Vector3 } from "@twincell/core";
 import { expect, test } from "vitest";
 import type { CellDocument, ObjectRecord } from "./document.ts";
 import { tracedCartonCell } from "./example/index.ts";
-import { framesWith, nameOfFrame, objectsOfFrame } from "./repair.ts";
+import { selectedProgram } from "./programs.ts";
+import { framesWith, nameOfFrame, objectsOfFrame, repairCell } from "./repair.ts";
 
 const like: ObjectRecord = tracedCartonCell().objects[0]!;
 const cell: CellDocument = {
@@ -32,4 +33,37 @@ test("what moves with a frame: its object with the rest of its group, and the fr
 test("a frame is called by the object it is attached to, or by its own name", () => {
   expect(nameOfFrame(cell, "edge")).toBe("Lid");
   expect(nameOfFrame(cell, "free")).toBe("free");
+});
+
+test("a part that is moved takes its group, its frames and what is taught in them along; a free frame moves alone", () => {
+  const by_m: Vector3 = [0.1, -0.2, 0.05];
+  const start = tracedCartonCell();
+  const carton = start.frames.find(({ attachedTo }) => attachedTo !== undefined)!;
+  const object = carton.attachedTo!.object;
+  const at = (of: CellDocument, id: string) => of.objects.find(each => each.id === id)!.worldFromObject.position;
+  const moved = repairCell(start, start.program, "", { moveFrame: { frame: carton.name, by_m } });
+  for (const axis of [0, 1, 2] as const) {
+    expect(at(moved, object)[axis] - at(start, object)[axis]).toBeCloseTo(by_m[axis], 12);
+    for (const frame of framesWith(start, carton.name)) {
+      const of = (cell: CellDocument) => cell.frames.find(({ name }) => name === frame)!.worldFromFrame.position[axis];
+      expect(of(moved) - of(start)).toBeCloseTo(by_m[axis], 12);
+      const taught = (cell: CellDocument) => selectedProgram(cell)!.frames[frame]?.position[axis] ?? 0;
+      if (selectedProgram(start)!.frames[frame] !== undefined)
+        expect(taught(moved) - taught(start)).toBeCloseTo(by_m[axis], 12);
+    }
+  }
+  const alone = repairCell(cell, cell.program, "", { moveFrame: { frame: "free", by_m } });
+  expect(alone.objects).toEqual(cell.objects);
+  expect(alone.frames.map(({ name, worldFromFrame }) => [name, worldFromFrame.position])).toContainEqual([
+    "free",
+    [0.1, -0.2, 0.05],
+  ]);
+});
+
+test("a robot that is moved leaves parts, frames and points where they are", () => {
+  const start = tracedCartonCell();
+  const moved = repairCell(start, start.program, "", { moveBase: { by_m: [0.3, 0, 0] } });
+  expect(moved.robot.worldFromBase.position[0] - start.robot.worldFromBase.position[0]).toBeCloseTo(0.3, 12);
+  expect(moved.objects).toBe(start.objects);
+  expect(moved.frames).toBe(start.frames);
 });

@@ -1,9 +1,12 @@
 import type { Checking } from "../runtime/planning/checking.ts";
+import { canRepair, repairProgram } from "../runtime/planning/repairing.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
 import { playStore } from "../stores/play.ts";
 import { firstRepairs, repairAll } from "../stores/program.ts";
+import { repairOffered, repairStore, showRepair, toggleRepair } from "../stores/repairs.ts";
+import { viewStore } from "../stores/view.ts";
 import { words } from "../messages/index.ts";
 
 export const checkCommands = (checking: Checking): readonly Command[] => [
@@ -29,11 +32,35 @@ export const checkCommands = (checking: Checking): readonly Command[] => [
     id: "check.repair-all",
     group: "program",
     words: words.commands.repairAll,
-    can: () => repairsNow().length > 0,
+    can: () => badSteps() > 0 || repairsNow().length > 0,
     run: () => {
+      if (badSteps() > 0) {
+        repairProgram();
+        return;
+      }
       const repairs = repairsNow();
-      if (repairAll(repairs)) notify("done", words.check.repaired(repairs.length));
+      if (repairAll(repairs)) notify("done", words.check.repaired(repairs.length, 0));
     },
+  },
+  ...[0, 1, 2].map(
+    (index): Command => ({
+      id: `check.show-repair-${index + 1}`,
+      group: "program",
+      words: words.commands.showRepair(index + 1),
+      keys: [String(index + 1)],
+      can: () => viewStore.getState().mode === "check" && repairOffered(index),
+      run: () => void toggleRepair(index),
+    }),
+  ),
+  {
+    id: "check.hide-repair",
+    group: "program",
+    words: words.commands.hideRepair,
+    keys: ["Escape"],
+    can: () => repairStore.getState().shown !== null,
+    run: () => showRepair(null),
   },
 ];
 const repairsNow = (): ReturnType<typeof firstRepairs> => firstRepairs(playStore.getState().verdict);
+const badSteps = (): number =>
+  canRepair() ? (playStore.getState().verdict?.steps.filter(({ verdict }) => verdict === "bad").length ?? 0) : 0;

@@ -45,6 +45,7 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
 const Display = lazy(() => import("./gizmo/display.tsx"));
 const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
@@ -113,6 +114,11 @@ export function Viewport() {
               </Suspense>
             )}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
+            {document && robot && mode === "check" && (
+              <Suspense fallback={null}>
+                <RepairGhost document={document} robot={robot} tool={tool} />
+              </Suspense>
+            )}
             {document?.objects.map(object => (
               <ObjectView key={object.id} object={object} theme={colours} />
             ))}

@@ -208,6 +208,12 @@ export const firstRepairs = (verdict: Verdict | null): readonly { readonly id: s
     return repair ? [{ id: step.id, repair }] : [];
   });
 
+/** How many steps Repair all is for: the bad ones, or, where none is bad, those with something to better. */
+export function stepsToRepair(verdict: Verdict | null): number {
+  const bad = (verdict?.steps ?? []).filter(step => step.verdict === "bad").length;
+  return bad > 0 ? bad : firstRepairs(verdict).length;
+}
+
 /** What a person reads for a step that has no name of its own. */
 export function stepWords(step: Step, index: number): string {
   if (step.name) return step.name;

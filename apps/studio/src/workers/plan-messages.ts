@@ -1,4 +1,30 @@
-import type { CellGeometry, PairMatrix, Program, SelfCollisionEscape, Detour } from "@twincell/core";
+import type {
+  CellGeometry,
+  Detour,
+  Explanation,
+  PairMatrix,
+  Program,
+  RepairedProgram,
+  SelfCollisionEscape,
+} from "@twincell/core";
+
+/** What moves with a frame of the cell, and what a person calls what stands in it. */
+export interface FrameParts {
+  readonly name: string;
+  readonly objects: readonly string[];
+  readonly frames: readonly string[];
+}
+/** A program with bad steps, as it was judged. */
+export interface RepairQuestion {
+  readonly program: Program;
+  readonly robot: string;
+  readonly cell: CellGeometry;
+  readonly margin_m: number;
+  /** By the name of the frame. */
+  readonly parts: Readonly<Record<string, FrameParts>>;
+  /** Whether the robot itself may be moved. */
+  readonly movesBase: boolean;
+}
 
 /** Searches that take a while. Cancelling ends the worker. */
 export type PlanTask =
@@ -17,7 +43,9 @@ export type PlanTask =
       readonly from_rad: readonly number[];
       readonly to_rad: readonly number[];
     }
-  | { readonly kind: "learn"; readonly robot: string; readonly cell: CellGeometry };
+  | { readonly kind: "learn"; readonly robot: string; readonly cell: CellGeometry }
+  | ({ readonly kind: "explain"; readonly step: string } & RepairQuestion)
+  | ({ readonly kind: "repair-all" } & RepairQuestion);
 export interface ToPlanner {
   readonly id: number;
   readonly task: PlanTask;
@@ -28,4 +56,6 @@ export type FromPlanner =
   | { readonly kind: "way"; readonly id: number; readonly answer: Detour }
   | { readonly kind: "go"; readonly id: number; readonly answer: SelfCollisionEscape }
   | { readonly kind: "learnt"; readonly id: number; readonly matrix: PairMatrix }
+  | { readonly kind: "explained"; readonly id: number; readonly explanation: Explanation | null }
+  | ({ readonly kind: "repaired"; readonly id: number } & Pick<RepairedProgram, "applied" | "left">)
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

@@ -1,26 +1,31 @@
 import type { Program, Repair, Verdict } from "@twincell/core";
+import { selectedProgram } from "@twincell/project";
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
 import { cancelSearch, findDetour } from "../../runtime/planning/planning.ts";
+import { cancelRepairing, explainStep } from "../../runtime/planning/repairing.ts";
 import { collideStore } from "../../stores/collide.ts";
-import { firstRepairs, repairStep, findStep, stepWords } from "../../stores/program.ts";
+import { repairStep, findStep, stepsToRepair, stepWords } from "../../stores/program.ts";
+import { repairStore } from "../../stores/repairs.ts";
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
 import { words } from "../../messages/index.ts";
 import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
+import { WaysOut } from "./WaysOut.tsx";
 
 const FIRST = 12;
 
 /** Subject, fact with number, way out. */
 export function WhyCards({ verdict }: { verdict: Verdict }) {
   const program = useStore(cellStore, state => programOf(state.document));
+  const ours = useStore(cellStore, state => state.document !== null && selectedProgram(state.document) !== undefined);
   const [all, setAll] = useState(false);
   if (!program) return null;
   const cards = whyCards(verdict, program);
-  const repairs = firstRepairs(verdict);
+  const repairs = stepsToRepair(verdict);
   if (cards.length === 0)
     return (
       <p className="why-fine">
@@ -30,13 +35,9 @@ export function WhyCards({ verdict }: { verdict: Verdict }) {
     );
   return (
     <>
-      {repairs.length > 1 && (
-        <button className="btn" onClick={() => runCommand("check.repair-all")}>
-          {words.check.repairAll(repairs.length)}
-        </button>
-      )}
-      {(all ? cards : cards.slice(0, FIRST)).map(card => (
-        <WhyCard key={card.key} card={card} subject={subjectOf(program, card)} />
+      {ours && repairs > 1 && <RepairAll count={repairs} />}
+      {(all ? cards : cards.slice(0, FIRST)).map((card, index) => (
+        <WhyCard key={card.key} card={card} subject={subjectOf(program, card)} first={index === 0} ours={ours} />
       ))}
       {!all && cards.length > FIRST && (
         <button className="btn quiet" onClick={() => setAll(true)}>
@@ -55,9 +56,40 @@ function subjectOf(program: Program, card: Why): string {
   return group === undefined || point.startsWith(group) ? point : `${group} · ${point}`;
 }
 
-function WhyCard({ card, subject }: { card: Why; subject: string }) {
+/** Everything that can be repaired, with the least changes; with its progress while they are looked for. */
+function RepairAll({ count }: { readonly count: number }) {
+  const share = useStore(repairStore, ({ searching }) => (searching?.kind === "all" ? searching.share : null));
+  if (share === null)
+    return (
+      <button className="btn" onClick={() => runCommand("check.repair-all")}>
+        {words.check.repairAll(count)}
+      </button>
+    );
+  return (
+    <div className="why-repair" aria-busy>
+      <span className="muted" role="status">
+        {words.check.repairing(Math.round(share * 100))}
+      </span>
+      <button className="btn tight" onClick={cancelRepairing}>
+        {words.common.cancel}
+      </button>
+    </div>
+  );
+}
+
+interface CardProps {
+  readonly card: Why;
+  readonly subject: string;
+  /** Looks for ways out by itself. */
+  readonly first: boolean;
+  /** Its steps can be changed: they are not a vendor's text. */
+  readonly ours: boolean;
+}
+function WhyCard({ card, subject, first, ours }: CardProps) {
   const { finding } = card;
+  const proven = ours && card.verdict === "bad";
   const look = (): void => {
+    if (proven) explainStep(card.step);
     select({ kind: "step", id: card.step });
     seek(finding.at_s);
   };
@@ -76,7 +108,7 @@ function WhyCard({ card, subject }: { card: Why; subject: string }) {
     };
   }, [shown]);
   useEffect(() => () => previewStep(null), []);
-  const own = card.repairs.filter(each => each.id === card.step);
+  const own = proven || !ours ? [] : card.repairs.filter(each => each.id === card.step);
   return (
     <article className="why" data-tone={card.verdict}>
       <button className="why-fact" onClick={look}>
@@ -114,7 +146,8 @@ function WhyCard({ card, subject }: { card: Why; subject: string }) {
           </button>
         </div>
       ))}
-      {card.finding.code === "collision.contact" && <Detour step={card.step} />}
+      {proven && <WaysOut step={card.step} open={first} />}
+      {ours && card.finding.code === "collision.contact" && <Detour step={card.step} />}
       {shown && <p className="small muted">{words.check.shown}</p>}
     </article>
   );

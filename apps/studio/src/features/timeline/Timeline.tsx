@@ -1,5 +1,6 @@
 import { ChartSpline, Pause, Play, SkipBack, SkipForward, Weight } from "lucide-react";
 import { lazy, Suspense, useEffect, useMemo, useRef, type KeyboardEvent, type PointerEvent } from "react";
+import { selectedProgram } from "@twincell/project";
 import { useStore } from "zustand";
 import { onFrame } from "../../runtime/jog/jog-frames.ts";
 import { physicsNow } from "../../runtime/physics/physics.ts";
@@ -10,6 +11,7 @@ import { programOf, robotOf } from "../../stores/document.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { physicsStore } from "../../stores/physics.ts";
 import { playStore } from "../../stores/play.ts";
+import { stepsToRepair } from "../../stores/program.ts";
 import { seek } from "../../stores/seek.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
 import { viewStore } from "../../stores/view.ts";
@@ -55,14 +57,8 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
   );
   const playing = useStore(playStore, state => (physics ? moving : state.playing));
   const duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
-  const repairs = useStore(
-    playStore,
-    state =>
-      state.verdict?.steps.reduce(
-        (count, step) => count + (step.findings.some(finding => finding.repairs.length > 0) ? 1 : 0),
-        0,
-      ) ?? 0,
-  );
+  const repairs = useStore(playStore, state => stepsToRepair(state.verdict));
+  const ours = useStore(cellStore, ({ document }) => document !== null && selectedProgram(document) !== undefined);
   const plots = useStore(viewStore, state => state.plots);
   const checking = useStore(playStore, state => state.checking);
   const robot = useStore(cellStore, state => robotOf(state.document));
@@ -132,7 +128,7 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
           {words.time.plots}
         </button>
       </Tip>
-      {repairs > 0 && (
+      {ours && repairs > 0 && (
         <button className="btn" onClick={() => runCommand("check.repair-all")}>
           {words.check.repairAll(repairs)}
         </button>

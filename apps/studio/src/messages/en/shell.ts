@@ -205,6 +205,8 @@ export const shellWords = {
     start: "To the start",
     checkNow: "Check now",
     repairAll: "Repair all",
+    showRepair: (n: number) => `Show way out ${n}`,
+    hideRepair: "Hide the way out shown",
     plots: "Plots",
     up: "Move the step up",
     down: "Move the step down",

@@ -1,4 +1,4 @@
-import { linkSolids, OtherArm, samplePlan, type CellGeometry, type CellObject } from "@twincell/core";
+import { linkSolids, OtherArm, samplePlan, type CellGeometry, type CellObject, type Robot } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
@@ -32,7 +32,7 @@ export function workerChecker(): Checker {
 /** Typing and dragging settle first. */
 const WAIT_MS = 180;
 /** Distance kept from everything [m]: contact is what is refused, nearness is shown. */
-const MARGIN_M = 0;
+export const MARGIN_M = 0;
 
 /**
  * Judges the program after every edit, away from the page. The newest edit wins; what is under way is given up for it.
@@ -120,12 +120,11 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       checker = hire();
       checker.listen(hear);
     }
-    const others = playStore.getState().withOthers ? otherRobots() : [];
-    if (!geometry || !solids || others.length > 0 || solidsDiffer(document, solids))
-      geometry = cellGeometry(document, linkSolids(robot));
-    if (others.length > 0) geometry = { ...geometry, objects: [...geometry.objects, ...others] };
-    // Where they stood is not where they stand the next time.
-    solids = others.length > 0 ? null : document;
+    const { withOthers } = playStore.getState();
+    if (!geometry || !solids || withOthers || solidsDiffer(document, solids))
+      geometry = geometryToCheck(document, robot);
+    // Where the others stood is not where they stand the next time.
+    solids = withOthers ? null : document;
     busy = true;
     playStore.setState({ checking: 0, stale: true, trouble: null });
     checker.post({
@@ -178,6 +177,13 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       fire();
     },
   };
+}
+
+/** The solids that a program of the cell is judged with. */
+export function geometryToCheck(document: CellDocument, robot: Robot): CellGeometry {
+  const geometry = cellGeometry(document, linkSolids(robot));
+  const others = playStore.getState().withOthers ? otherRobots() : [];
+  return others.length === 0 ? geometry : { ...geometry, objects: [...geometry.objects, ...others] };
 }
 
 /** The robots of the other controllers as they stand now. */

@@ -6,9 +6,12 @@ import {
   escapeSelfCollision,
   PathValidator,
   detour,
+  repairAll,
+  RepairSearch,
   type PathOptions,
+  type RepairOptions,
 } from "@twincell/core";
-import type { FromPlanner, ToPlanner } from "../../workers/plan-messages.ts";
+import type { FromPlanner, RepairQuestion, ToPlanner } from "../../workers/plan-messages.ts";
 
 /** Long enough for a crowded cell, short enough to be waited for. */
 const WITHIN_S = 20;
@@ -45,6 +48,16 @@ export function planTask(
         id,
         answer: detour(task.program, task.step, robot, { ...options, cell: task.cell, margin_m: task.margin_m }),
       };
+    case "explain":
+      return {
+        kind: "explained",
+        id,
+        explanation: new RepairSearch(task.program, robot, repairOptions(task)).explain(task.step) ?? null,
+      };
+    case "repair-all": {
+      const { applied, left } = repairAll(task.program, robot, repairOptions(task), options.onProgress);
+      return { kind: "repaired", id, applied, left };
+    }
     case "learn":
       return { kind: "learnt", id, matrix: learnPairs(task.cell, robot.arm, SEED, LEARN_SAMPLES, robot.home_rad) };
     case "go": {
@@ -64,3 +77,12 @@ export function planTask(
     }
   }
 }
+
+const repairOptions = ({ cell, margin_m, parts, movesBase }: RepairQuestion): RepairOptions => ({
+  cell,
+  margin_m,
+  movesBase,
+  objectsOf: frame => parts[frame]?.objects ?? [],
+  framesOf: frame => parts[frame]?.frames ?? [frame],
+  nameOf: frame => parts[frame]?.name ?? frame,
+});

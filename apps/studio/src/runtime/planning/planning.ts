@@ -6,71 +6,37 @@ import { commit, programOf, robotOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
 import { repairStep } from "../../stores/program.ts";
 import { words } from "../../messages/index.ts";
-import type { FromPlanner, PlanTask, ToPlanner } from "../../workers/plan-messages.ts";
+import type { FromPlanner, PlanTask } from "../../workers/plan-messages.ts";
 import { interpolateAlong } from "../jog/joint-interpolation.ts";
 import { theLive } from "../live.ts";
+import { BackgroundSearch, type Planner } from "./planner.ts";
 
-/** Who searches: a worker of the page, or a double in a test. */
-export interface Planner {
-  post(message: ToPlanner): void;
-  listen(hear: (message: FromPlanner) => void): void;
-  close(): void;
-}
-export function workerPlanner(): Planner {
-  const worker = new Worker(new URL("../../workers/plan.worker.ts", import.meta.url), { type: "module" });
-  return {
-    post: message => {
-      worker.postMessage(message);
-    },
-    listen: hear => {
-      worker.addEventListener("message", ({ data }: MessageEvent<FromPlanner>) => {
-        hear(data);
-      });
-      worker.addEventListener("error", event => {
-        hear({ kind: "trouble", id: -1, sentence: event.message || words.collide.trouble });
-      });
-    },
-    close: () => {
-      worker.terminate();
-    },
-  };
-}
-
-let hire: () => Planner = workerPlanner;
-let planner: Planner | null = null;
-let id = 0;
+const planning = new BackgroundSearch();
 /** Another planner from now on. */
 export function hirePlanners(how: () => Planner): void {
   cancelSearch();
-  hire = how;
+  planning.hire = how;
 }
 
 /** Gives up what is being searched for. */
 export function cancelSearch(): void {
-  planner?.close();
-  planner = null;
+  planning.cancel();
   collideStore.setState({ searching: null });
 }
 
 function search(task: PlanTask, shown: Search, done: (message: FromPlanner) => void): void {
-  cancelSearch();
-  const mine = ++id;
-  const hired = hire();
-  planner = hired;
   collideStore.setState({ searching: shown });
-  hired.listen(message => {
-    if (planner !== hired || (message.id !== mine && message.id !== -1)) return;
+  planning.begin(task, message => {
     if (message.kind === "progress") {
       collideStore.setState(({ searching }) =>
         searching === null || searching.kind === "learn" ? {} : { searching: { ...searching, share: message.share } },
       );
       return;
     }
-    cancelSearch();
+    collideStore.setState({ searching: null });
     if (message.kind === "trouble") notify("bad", message.sentence, words.collide.troubleHint);
     else done(message);
   });
-  hired.post({ id: mine, task });
 }
 
 /** Searches for points that lead a step past what it meets, and puts them into the program as one edit. */
