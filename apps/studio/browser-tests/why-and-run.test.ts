@@ -127,6 +127,55 @@ test("Why cards name step, fact and way out; one click repairs, one key takes it
   expect(problems).toEqual([]);
 });
 
+test("L-39 L-40 L-41 path and time line change colour inside a move at limit − 10° and at the limit; a click there goes there", async () => {
+  const { page, problems } = await studio.open();
+  const fifth = (id: string, deg: number): MoveStep => ({
+    id,
+    name: id,
+    type: "move",
+    path: "ptp",
+    speed: { ratio: 0.2 },
+    blend_m: 0,
+    target: { q: [0, -1.2, 1.9, 0, (deg * Math.PI) / 180, 0], tool: "torch" },
+  });
+  await opened(
+    page,
+    withSteps(steps => [...steps.slice(0, 1), fifth("start", 60), fifth("sweep", 125)]),
+  );
+  await page.keyboard.press("3");
+  const pieces = await page.evaluate(() =>
+    window.twincell.stores.playStore.getState().path.filter(({ step }) => step === "sweep"),
+  );
+  expect(pieces.map(({ verdict }) => verdict)).toEqual(["ok", "warn", "bad"]);
+  const shown = await page
+    .locator(".block[data-block='sweep'] .block-piece")
+    .evaluateAll(marks => marks.map(mark => [mark.dataset.verdict, mark.getBoundingClientRect().width > 1]));
+  expect(shown).toEqual([
+    ["warn", true],
+    ["bad", true],
+  ]);
+  const fifthNow = () => page.evaluate(() => (window.twincell.live.now().q_rad[4]! * 180) / Math.PI);
+  for (const [piece, low, high] of [
+    [pieces[1]!, 110, 120],
+    [pieces[2]!, 120, 125],
+  ] as const) {
+    const place = await page.evaluate(
+      point => window.twincellScene!.project(point),
+      piece.points[Math.floor(piece.points.length / 2)]!,
+    );
+    await page.mouse.click(place.x, place.y);
+    await expect.poll(fifthNow).toBeGreaterThan(low);
+    expect(await fifthNow()).toBeLessThan(high);
+  }
+  // Row L-40: the offender is red, alone.
+  expect(await page.locator(".joint-line[data-near='bad'] .axis-name").allInnerTexts()).toEqual(["J5"]);
+  await page.screenshot({ path: picture("within-a-move") });
+  await page.evaluate(() => window.twincell.seek(0));
+  await page.keyboard.press("F8");
+  await expect.poll(fifthNow).toBeGreaterThan(119.9);
+  expect(problems).toEqual([]);
+});
+
 test("the timeline plays at any speed, holds at 0 %, and the robot stands where the plan says", async () => {
   const { page, problems } = await studio.open();
   await opened(page, cell);

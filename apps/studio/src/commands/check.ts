@@ -1,4 +1,5 @@
 import type { Checking } from "../runtime/planning/checking.ts";
+import { lookAt, nextProblem, problems } from "../runtime/planning/look-at.ts";
 import { canRepair, repairProgram } from "../runtime/planning/repairing.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram } from "../stores/document.ts";
@@ -6,7 +7,8 @@ import { notify } from "../stores/notices.ts";
 import { playStore } from "../stores/play.ts";
 import { firstRepairs, repairAll } from "../stores/program.ts";
 import { repairOffered, repairStore, showRepair, toggleRepair } from "../stores/repairs.ts";
-import { viewStore } from "../stores/view.ts";
+import { selectionStore } from "../stores/selection.ts";
+import { showMode, viewStore } from "../stores/view.ts";
 import { words } from "../messages/index.ts";
 
 export const checkCommands = (checking: Checking): readonly Command[] => [
@@ -42,6 +44,16 @@ export const checkCommands = (checking: Checking): readonly Command[] => [
       if (repairAll(repairs)) notify("done", words.check.repaired(repairs.length, 0));
     },
   },
+  ...([true, false] as const).map(
+    (forward): Command => ({
+      id: forward ? "check.next-problem" : "check.previous-problem",
+      group: "program",
+      words: forward ? words.commands.nextProblem : words.commands.previousProblem,
+      keys: [forward ? "F8" : "Shift+F8"],
+      can: () => problems().length > 0,
+      run: () => goToProblem(forward),
+    }),
+  ),
   ...[0, 1, 2].map(
     (index): Command => ({
       id: `check.show-repair-${index + 1}`,
@@ -64,3 +76,11 @@ export const checkCommands = (checking: Checking): readonly Command[] => [
 const repairsNow = (): ReturnType<typeof firstRepairs> => firstRepairs(playStore.getState().verdict);
 const badSteps = (): number =>
   canRepair() ? (playStore.getState().verdict?.steps.filter(({ verdict }) => verdict === "bad").length ?? 0) : 0;
+
+function goToProblem(forward: boolean): void {
+  const { selected } = selectionStore.getState();
+  const problem = nextProblem(selected?.kind === "step" ? selected.id : null, forward);
+  if (!problem) return;
+  showMode("check");
+  lookAt(problem.step, problem.at_s);
+}

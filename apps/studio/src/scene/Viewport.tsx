@@ -12,6 +12,7 @@ import { playStore } from "../stores/play.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
+import { repairStore } from "../stores/repairs.ts";
 import { viewStore } from "../stores/view.ts";
 import { type CameraWishes, Controls } from "./camera/controls.tsx";
 import { ViewCube } from "./camera/view-cube.tsx";
@@ -57,6 +58,7 @@ const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode);
+  const repairShown = useStore(repairStore, state => state.shown !== null);
   const inHeadset = useStore(viewStore, state => state.inHeadset);
   const wish = useStore(viewStore, state => state.headsetWish);
   const physics = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped");
@@ -114,7 +116,7 @@ export function Viewport() {
               </Suspense>
             )}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
-            {document && robot && mode === "check" && (
+            {document && robot && repairShown && (
               <Suspense fallback={null}>
                 <RepairGhost document={document} robot={robot} tool={tool} />
               </Suspense>

@@ -1,11 +1,6 @@
-import type { Plan, StepVerdict, Vector3, Verdict } from "@twincell/core";
+import type { PathPiece, Plan, StepVerdict, Verdict } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 
-export interface PathStretch {
-  readonly step: string;
-  readonly verdict: StepVerdict;
-  readonly points: readonly Vector3[];
-}
 /** The program laid out in time, judged, and where on the timeline we look. */
 export interface PlayState {
   readonly plan: Plan | null;
@@ -24,8 +19,8 @@ export interface PlayState {
   readonly playing: boolean;
   /** 0 … 1. 0 holds. */
   readonly speed: number;
-  /** TCP path in the world with the verdict of each stretch, for drawing. */
-  readonly path: readonly PathStretch[];
+  /** TCP path in the world, cut where its verdict changes, for drawing. */
+  readonly path: readonly PathPiece[];
   /** The other robots of the cell count as obstacles, where they stand when it is checked. */
   readonly withOthers: boolean;
   /** A repair being shown and not yet applied: the ids of the steps it would change. */

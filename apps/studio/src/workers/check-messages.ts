@@ -1,5 +1,4 @@
-import type { CellGeometry, Plan, Program, Verdict } from "@twincell/core";
-import type { PathStretch } from "../stores/play.ts";
+import type { CellGeometry, PathPiece, Plan, Program, Verdict } from "@twincell/core";
 
 /** One program to judge. The geometry is sent only when it changed since the last question to this worker. */
 export interface ToChecker {
@@ -16,7 +15,7 @@ export type FromChecker =
       readonly id: number;
       readonly verdict: Verdict;
       readonly plan: Plan;
-      readonly path: readonly PathStretch[];
+      readonly path: readonly PathPiece[];
       readonly took_ms: number;
     }
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

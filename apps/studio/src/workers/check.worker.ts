@@ -1,6 +1,5 @@
 import "./know-robots.ts";
-import { checkProgram, robotById, type CellGeometry } from "@twincell/core";
-import { tcpPath } from "../runtime/planning/tcp-path.ts";
+import { checkProgram, pathPieces, robotById, type CellGeometry } from "@twincell/core";
 import type { FromChecker, ToChecker } from "./check-messages.ts";
 
 let cell: CellGeometry | undefined;
@@ -21,7 +20,7 @@ addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
       return;
     }
     let told = began;
-    const { verdict, plan } = checkProgram(program, robot, {
+    const checked = checkProgram(program, robot, {
       cell,
       margin_m: data.margin_m,
       onProgress: share => {
@@ -34,9 +33,9 @@ addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
     answer({
       kind: "checked",
       id,
-      verdict,
-      plan,
-      path: tcpPath(plan, verdict, program, robot, cell.worldFromBase),
+      verdict: checked.verdict,
+      plan: checked.plan,
+      path: pathPieces(checked, program, robot, cell),
       took_ms: performance.now() - began,
     });
   } catch (problem) {

@@ -9,4 +9,5 @@ export { standOf } from "./stand.ts";
 export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";
 export { NEAR_LIMIT_RAD } from "./limits.ts";
 export { NEAR_SINGULAR_RAD } from "./singular.ts";
+export { pathPieces, type PathPiece } from "./path-pieces.ts";
 export * from "./repair/index.ts";

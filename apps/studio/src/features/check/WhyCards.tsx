@@ -6,12 +6,12 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
 import { cancelSearch, findDetour } from "../../runtime/planning/planning.ts";
-import { cancelRepairing, explainStep } from "../../runtime/planning/repairing.ts";
+import { lookAt } from "../../runtime/planning/look-at.ts";
+import { cancelRepairing } from "../../runtime/planning/repairing.ts";
 import { collideStore } from "../../stores/collide.ts";
 import { repairStep, findStep, stepsToRepair, stepWords } from "../../stores/program.ts";
 import { repairStore } from "../../stores/repairs.ts";
-import { select } from "../../stores/selection.ts";
-import { previewStep, seek } from "../../stores/seek.ts";
+import { previewStep } from "../../stores/seek.ts";
 import { words } from "../../messages/index.ts";
 import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
 import { WaysOut } from "./WaysOut.tsx";
@@ -89,9 +89,7 @@ function WhyCard({ card, subject, first, ours }: CardProps) {
   const { finding } = card;
   const proven = ours && card.verdict === "bad";
   const look = (): void => {
-    if (proven) explainStep(card.step);
-    select({ kind: "step", id: card.step });
-    seek(finding.at_s);
+    lookAt(card.step, finding.at_s);
   };
   const [shown, setShown] = useState<Repair | null>(null);
   useEffect(() => {

@@ -11,7 +11,7 @@ export function outcomeWords({ joint, change_s, clearance_m, bad }: RepairOutcom
   if (change_s !== null && Math.abs(change_s) >= SAME_S)
     says.push(words.check.cycleChange(`${change_s > 0 ? "+" : "−"}${Math.abs(change_s).toFixed(2)}`));
   if (clearance_m !== null && cause === "collision") says.push(words.check.room((clearance_m * 1000).toFixed(0)));
-  if (bad > 0) says.push(words.check.stillBad(bad));
+  says.push(bad > 0 ? words.check.stillBad(bad) : words.check.allGood);
   return says.join(" · ");
 }
 

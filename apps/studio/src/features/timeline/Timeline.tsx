@@ -26,11 +26,12 @@ const Plots = lazy(() => import("./Plots.tsx"));
 export function Timeline() {
   const plan = useStore(playStore, state => state.plan);
   const verdict = useStore(playStore, state => state.verdict);
+  const path = useStore(playStore, state => state.path);
   const program = useStore(cellStore, state => programOf(state.document));
   const plots = useStore(viewStore, state => state.plots);
   const blocks = useMemo(
-    () => (plan && program ? timelineBlocks(program, plan, verdict) : []),
-    [program, plan, verdict],
+    () => (plan && program ? timelineBlocks(program, plan, verdict, path) : []),
+    [program, plan, verdict, path],
   );
   return (
     <div className="timeline">
@@ -196,11 +197,21 @@ function Track({ blocks, duration_s }: { blocks: readonly Block[]; duration_s: n
           className="block"
           data-block={block.step}
           data-verdict={block.rest && block.verdict !== "bad" ? "rest" : block.verdict}
+          data-parts={block.pieces.length > 0 ? true : undefined}
           data-on={block.step === selected}
           title={block.name}
           style={{ left: `${(block.start_s / duration_s) * 100}%`, width: `${(block.duration_s / duration_s) * 100}%` }}
         >
           <span>
+            {block.pieces.map(({ from, to, verdict }) => (
+              <i
+                key={from}
+                className="block-piece"
+                data-verdict={verdict}
+                style={{ left: `${from * 100}%`, width: `${(to - from) * 100}%` }}
+                aria-hidden
+              />
+            ))}
             <i className="mark" data-verdict={block.verdict} aria-hidden />
             <span className="block-name">
               {block.findings > 0 ? words.time.over(block.name, block.findings) : block.name}

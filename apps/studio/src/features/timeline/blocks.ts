@@ -1,4 +1,4 @@
-import { everyStep, type Plan, type Program, type StepVerdict, type Verdict } from "@twincell/core";
+import { everyStep, type PathPiece, type Plan, type Program, type StepVerdict, type Verdict } from "@twincell/core";
 import { worse } from "../../stores/play.ts";
 import { stepWords } from "../../stores/program.ts";
 
@@ -13,12 +13,24 @@ export interface Block {
   readonly verdict: StepVerdict;
   readonly rest: boolean;
   readonly findings: number;
+  /** Where in it the verdict is another than "ok", in parts of its own length. */
+  readonly pieces: readonly BlockPiece[];
+}
+export interface BlockPiece {
+  readonly from: number;
+  readonly to: number;
+  readonly verdict: StepVerdict;
 }
 
 /** Blocks thinner than this part of the whole are drawn together. */
 const THIN = 0.004;
 
-export function timelineBlocks(program: Program, plan: Plan, verdict: Verdict | null): readonly Block[] {
+export function timelineBlocks(
+  program: Program,
+  plan: Plan,
+  verdict: Verdict | null,
+  path: readonly PathPiece[] = [],
+): readonly Block[] {
   const reports = new Map(verdict?.steps.map(report => [report.id, report]));
   const places = new Map(Array.from(everyStep(program), (step, index) => [step.id, { step, index }]));
   const blocks: Block[] = [];
@@ -62,10 +74,24 @@ export function timelineBlocks(program: Program, plan: Plan, verdict: Verdict | 
         verdict: judged,
         rest,
         findings: count,
+        pieces: [],
       });
     }
     group = mine;
     lastStep = segment.step;
   }
-  return blocks;
+  return withPieces(blocks, path);
+}
+
+/** Gives each block the pieces of the path that lie in it and are not "ok". */
+function withPieces(blocks: readonly Block[], path: readonly PathPiece[]): readonly Block[] {
+  const marked = path.filter(({ verdict, from_s, to_s }) => verdict !== "ok" && to_s > from_s);
+  return blocks.map(block => {
+    const share = (t_s: number): number => Math.min(1, Math.max(0, (t_s - block.start_s) / block.duration_s));
+    const pieces = marked.flatMap(({ from_s, to_s, verdict }) => {
+      const [from, to] = [share(from_s), share(to_s)];
+      return to > from ? [{ from, to, verdict }] : [];
+    });
+    return pieces.length === 0 ? block : { ...block, pieces };
+  });
 }

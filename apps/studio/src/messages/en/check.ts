@@ -136,6 +136,7 @@ export const checkWords = {
     reaches: (joint: number, value: string) => `J${joint} to ${value}`,
     cycleChange: (s: string) => `cycle ${s} s`,
     room: (mm: string) => `${mm} mm of room`,
+    allGood: "every step can be carried out",
     stillBad: (n: number) => `${plural(n, "step")} still bad`,
     shown: "Preview. Esc to cancel.",
     at: (s: string) => `at ${s} s`,

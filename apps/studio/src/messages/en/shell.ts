@@ -88,8 +88,9 @@ export const shellWords = {
       ["T", "traces edges"],
     ],
     hintCheck: [
-      ["Click a point", "says why"],
-      ["drag the timeline", "moves the robot"],
+      ["Click the path", "says why"],
+      ["1 2 3", "ways out"],
+      ["F8", "next"],
     ],
     hintRun: [
       ["Run", "proves the exported text"],
@@ -205,6 +206,8 @@ export const shellWords = {
     start: "To the start",
     checkNow: "Check now",
     repairAll: "Repair all",
+    nextProblem: "Next problem",
+    previousProblem: "Previous problem",
     showRepair: (n: number) => `Show way out ${n}`,
     hideRepair: "Hide the way out shown",
     plots: "Plots",

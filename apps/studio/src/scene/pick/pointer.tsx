@@ -5,9 +5,11 @@ import { type RefObject, useEffect, useMemo } from "react";
 import { type Group, type Mesh, PerspectiveCamera, Raycaster, Vector3 as V } from "three";
 import { beginDrag, dragTcp } from "../../runtime/jog/drag.ts";
 import { theLive } from "../../runtime/live.ts";
+import { lookAt } from "../../runtime/planning/look-at.ts";
 import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
 import { buildStore } from "../../stores/build.ts";
 import { pickToMeasure } from "../../stores/measure.ts";
+import { playStore } from "../../stores/play.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -18,6 +20,7 @@ import { toWorld } from "../world-space.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, edgeUnder } from "./edges.ts";
 import { measurePoint } from "./measure-point.ts";
+import { pathUnder } from "./path-under.ts";
 import { nearestThing } from "./raycast.ts";
 import { thingWords } from "./thing-words.ts";
 
@@ -215,8 +218,12 @@ export function Pointer({
     const edge = traceStore.getState().hovered;
     const text = part !== null ? WORDS.handle[part] : edge ? "" : thing ? thingWords(thing, document) : "";
     sayAtPointer(label, text, "plain", interaction.px, interaction.py);
-    gl.domElement.style.cursor = part !== null ? "grab" : edge || thing ? "pointer" : "";
+    gl.domElement.style.cursor = part !== null ? "grab" : edge || thing || pathAt(ray) ? "pointer" : "";
   };
+
+  /** In Check mode: the place of the path under the pointer. */
+  const pathAt = (ray: Ray) =>
+    viewStore.getState().mode === "check" ? pathUnder(playStore.getState().path, ray, tolerance_rad()) : undefined;
 
   const lookForEdge = (ray: Ray, depth_m: number, hidden: boolean): void => {
     const { hovered } = traceStore.getState();
@@ -230,16 +237,20 @@ export function Pointer({
     if (hovered?.object !== picked.object.id || JSON.stringify(hovered.polyline) !== JSON.stringify(polyline))
       traceStore.setState({ hovered: { object: picked.object.id, polyline } });
   };
-  const edgeAt = (ray: Ray, depth_m: number) => {
+  /** How far off the pointer a line may be seen. */
+  const tolerance_rad = (): number => {
     const fov = camera instanceof PerspectiveCamera ? (camera.fov * Math.PI) / 180 : 0.6;
-    const tolerance_rad = (EDGE_TOLERANCE_PX * fov) / gl.domElement.clientHeight;
+    return (EDGE_TOLERANCE_PX * fov) / gl.domElement.clientHeight;
+  };
+  const edgeAt = (ray: Ray, depth_m: number) => {
+    const tolerance = tolerance_rad();
     let best: {
       readonly object: CellDocument["objects"][number];
       readonly pick: NonNullable<ReturnType<typeof edgeUnder>>;
     } | null = null;
     for (const object of document.objects) {
       if (object.role === "wall") continue;
-      const pick = edgeUnder(object, ray, depth_m, tolerance_rad);
+      const pick = edgeUnder(object, ray, depth_m, tolerance);
       if (pick && (!best || pick.distance_m < best.pick.distance_m)) best = { object, pick };
     }
     return best;
@@ -249,6 +260,11 @@ export function Pointer({
   const choose = (more: boolean): void => {
     const trace = traceStore.getState();
     if (!trace.active) {
+      const place = pathAt(aim());
+      if (place) {
+        lookAt(place.step, place.at_s);
+        return;
+      }
       const { hovered } = selectionStore.getState();
       if (viewStore.getState().mode === "cell" && buildStore.getState().tool === "measure") {
         const found = world.current ? nearestThing(work.caster, world.current) : null;
