@@ -5,8 +5,9 @@ export type AxisName = (typeof AXIS_NAMES)[number];
 /** Moves a coordinate (in the joint frame: joint 1 … 6) one way while held. */
 export type HeldAction = `${AxisName}${"+" | "-"}`;
 export type PressedAction = "aid-next" | "aid-previous" | "record" | "ready" | "camera";
-/** "turn-back": held first, the turning buttons turn the other way. "tilt": how far pressed is how far tilted. */
-export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt";
+/** "turn-back": held first, the turning buttons turn the other way. "tilt": how far pressed is how far tilted.
+ * "edit": held while a point is taught again. */
+export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt" | "edit";
 /** "x": the stick's coordinate; a leading "-" turns it round. */
 export type StickAction = AxisName | `-${AxisName}`;
 
@@ -23,6 +24,7 @@ export const PAD_ACTIONS: readonly PadAction[] = [
   "ready",
   "camera",
   "tilt",
+  "edit",
 ];
 export const STICK_ACTIONS: readonly StickAction[] = AXIS_NAMES.flatMap(axis => [axis, `-${axis}` as const]);
 
@@ -74,6 +76,7 @@ export const DEFAULT_BINDINGS: Bindings = {
     3: "aid-next",
     4: "turn-back",
     5: "record",
+    6: "edit",
     7: "tilt",
     8: "aid-previous",
     9: "ready",

@@ -6,3 +6,4 @@ export * from "./follow-target.ts";
 export * from "./glove.ts";
 export * from "./demonstration/index.ts";
 export * from "./jog-targets.ts";
+export { nearestTo, snapPoint, taughtAgain, type Snap, type SnapPoint } from "./edit-point.ts";

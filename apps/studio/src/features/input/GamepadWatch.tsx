@@ -1,4 +1,5 @@
 import { useEffect } from "react";
+import { beginEdit, endEdit } from "../../runtime/jog/edit-point.ts";
 import { onFrame } from "../../runtime/jog/jog-frames.ts";
 import { hold, release, releaseAll } from "../../runtime/jog/pressed-inputs.ts";
 import { bindingStore, type PressedAction } from "../../stores/bindings.ts";
@@ -26,6 +27,7 @@ export function GamepadWatch() {
     let before: PadReading | null = null;
     let told_ms = 0;
     let name = "";
+    let edits = false;
     const back = new Set<number>();
     return onFrame(now_ms => {
       const pad = navigator.getGamepads().find(each => each?.connected) ?? null;
@@ -35,6 +37,8 @@ export function GamepadWatch() {
         back.clear();
         release("gamepad");
         releaseAll();
+        if (edits) endEdit();
+        edits = false;
         gamepadStore.setState({ pad: null });
         notify("warn", words.pad.lost, words.pad.lostHint);
         return;
@@ -52,6 +56,12 @@ export function GamepadWatch() {
       const listens = viewStore.getState().mode === "teach" && dialogStore.getState().open === null;
       for (let axis = 0; axis < 6; axis++) hold("gamepad", axis, listens ? step.axes[axis]! : 0);
       if (listens) for (const action of step.pressed) runCommand(COMMAND[action]);
+      const wantsEdit = step.edit && listens;
+      if (wantsEdit !== edits) {
+        edits = wantsEdit;
+        if (edits) beginEdit();
+        else endEdit();
+      }
       if (step.tilt !== null) tiltCloseCamera(step.tilt);
       if ((now_ms - told_ms > TELL_EVERY_MS && dialogStore.getState().open === "controls") || before === null) {
         told_ms = now_ms;

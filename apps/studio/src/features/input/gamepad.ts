@@ -19,6 +19,8 @@ export interface PadStep {
   readonly pressed: readonly PressedAction[];
   /** 0 … 1 when the tilt trigger moved; null otherwise (row N-44). */
   readonly tilt: number | null;
+  /** EDIT is held (row L-42). */
+  readonly edit: boolean;
 }
 
 /** Sticks at rest are never quite 0. What is left is stretched so that it begins at 0. */
@@ -26,7 +28,7 @@ const DEAD_ZONE = 0.15;
 export const DOWN = 0.5;
 const isHeld = (action: PadAction): action is HeldAction => action.endsWith("+") || action.endsWith("-");
 const isPressed = (action: PadAction): action is PressedAction =>
-  !isHeld(action) && action !== "turn-back" && action !== "tilt";
+  !isHeld(action) && action !== "turn-back" && action !== "tilt" && action !== "edit";
 const live = (value: number): number =>
   Number.isFinite(value) && Math.abs(value) > DEAD_ZONE
     ? (Math.sign(value) * (Math.abs(value) - DEAD_ZONE)) / (1 - DEAD_ZONE)
@@ -47,6 +49,7 @@ export function padStep(
   const down = (reading: PadReading | null, button: number): boolean => (reading?.buttons[button] ?? 0) >= DOWN;
   let back = false;
   let tilt: number | null = null;
+  let edit = false;
   for (const [key, action] of Object.entries(bindings.buttons))
     if (action === "turn-back" && down(now, Number(key))) back = true;
   for (const [key, action] of Object.entries(bindings.buttons)) {
@@ -63,7 +66,8 @@ export function padStep(
       axes[axis] = axes[axis]! + sign * (axis > 2 && turningBack.has(button) ? -1 : 1);
     } else if (isPressed(action)) {
       if (isDown && !wasDown) pressed.push(action);
-    } else if (action === "tilt") {
+    } else if (action === "edit") edit ||= isDown;
+    else if (action === "tilt") {
       const value = now.buttons[button] ?? 0;
       if (Number.isFinite(value) && value !== (before?.buttons[button] ?? 0)) tilt = Math.min(1, Math.max(0, value));
     }
@@ -72,5 +76,5 @@ export function padStep(
     const { axis, sign } = axisOfStick(action);
     axes[axis] = axes[axis]! + sign * live(now.axes[Number(key)] ?? 0);
   }
-  return { axes, pressed, tilt };
+  return { axes, pressed, tilt, edit };
 }

@@ -8,6 +8,7 @@ import { selectionStore } from "../../stores/selection.ts";
 import { orientationPresetStore } from "../../stores/aids.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../messages/index.ts";
+import { EditButton } from "./EditButton.tsx";
 
 /** Aids, home, record, touch up, gripper, last message. */
 export function PointButtons() {
@@ -59,6 +60,7 @@ export function PointButtons() {
           </button>
         </Tip>
       </div>
+      <EditButton />
       <div className="point-row">
         <span className="point-label">{words.jog.aids}</span>
         <button className="btn icon" aria-label={words.jog.aidPrevious} onClick={() => runCommand("jog.aid-previous")}>

@@ -66,6 +66,7 @@ export const teachWords = {
     comment: "Change comment",
     times: "Change loop",
     touchUp: "Touch up point",
+    editPoint: "Edit point",
     touchUpText: (point: string) => `Touch up ${point} in the text`,
     openText: (name: string) => `Open ${name}`,
     rename: "Rename",
@@ -120,6 +121,23 @@ export const teachWords = {
       `“${text}” is not a number I can read. Type one, for instance 25${unit && ` ${unit}`}, +10 or 90/4.`,
     atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`,
     atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
+  },
+  edit: {
+    label: "Edit",
+    button: "Hold to edit",
+    tip: "The tool snaps to the point near it; move it while held; letting go stores it",
+    hint: "Bring the tool near a red point and hold: it snaps there. Move it; letting go stores it.",
+    at: (name: string) => `${name}: move the tool; letting go stores it here.`,
+    short: (name: string, mm: string) =>
+      `${name} is out of reach by ${mm} mm. Move the tool; letting go stores it here.`,
+    none: "There is no point to edit. Record one first.",
+    tooFar: (name: string, mm: string) => `The nearest point, ${name}, is ${mm} mm away.`,
+    tooFarHint: "Bring the tool within 120 mm of the point.",
+    live: "A point is not edited with the connected robot.",
+    liveHint: "Choose Clone: the robot on screen is moved then, and the real one stays where it is.",
+    stored: (name: string) => `${name} is stored.`,
+    contact: (name: string, a: string, b: string) =>
+      `${name} was not stored where the tool is now: ${a} is in contact with ${b}.`,
   },
   jog: {
     title: "Pendant",
@@ -209,6 +227,7 @@ export const teachWords = {
       ready: "Move to home",
       camera: "main or close camera",
       tilt: "tilt of the close camera",
+      edit: "hold: edit the point the tool is at",
     },
     sticks: {
       x: "X",

@@ -1,7 +1,8 @@
-import { compose, flangePose, flow, identity, type Pose, type Program, type Robot, robotById } from "@twincell/core";
+import { flow, type Pose, type Program, type Robot, robotById } from "@twincell/core";
 import { selectedProgram, type CellDocument } from "@twincell/project";
 import { useLayoutEffect, useMemo, useRef } from "react";
 import { type InstancedMesh, Matrix4 } from "three";
+import { worldFromTarget } from "../../runtime/planning/target-pose.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { triadGeometry } from "../triad-geometry.ts";
 
@@ -13,29 +14,14 @@ const MAX_POINTS = 20_000;
 
 /** Where the taught points of the program are, in the world. */
 export function waypointPoses(document: CellDocument, program: Program, robot: Robot): Pose<"world", "tcp">[] {
-  const tools = new Map(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
-  const flangeFromTcp = (name: string): Pose<"flange", "tcp"> => program.tools[name] ?? tools.get(name) ?? identity();
   // Every place of a pallet is a point; rounds of a loop are not told apart.
   const points = Array.from(flow(program, { rounds: 1, mostSteps: 0 })).flatMap(happening =>
     happening.kind === "step" ? [happening.step] : [],
   );
   return points.slice(0, MAX_POINTS).flatMap(step => {
     if (step.type !== "move") return [];
-    const { target } = step;
-    if ("q" in target) {
-      if (target.q.length !== robot.arm.joints.length) return [];
-      return [
-        compose(
-          compose(document.robot.worldFromBase, flangePose(robot.arm, target.q)),
-          flangeFromTcp(target.tool ?? document.tool),
-        ),
-      ];
-    }
-    const frame: Pose<"world", "frame"> | undefined =
-      target.frame === "world"
-        ? identity()
-        : (program.frames[target.frame] ?? document.frames.find(each => each.name === target.frame)?.worldFromFrame);
-    return frame ? [compose(frame, target.pose)] : [];
+    const worldFromTcp = worldFromTarget(document, program, robot, step.target);
+    return worldFromTcp ? [worldFromTcp] : [];
   });
 }
 
