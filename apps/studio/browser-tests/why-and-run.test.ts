@@ -176,6 +176,40 @@ test("L-39 L-40 L-41 path and time line change colour inside a move at limit −
   expect(problems).toEqual([]);
 });
 
+test("the base position map colours the floor, and the place that it suggests makes a program good that is out of reach", async () => {
+  const { page, problems } = await studio.open();
+  const { position, quaternion } = cell.robot.worldFromBase;
+  await opened(page, {
+    ...cell,
+    // Not the column: the robot is to be moved off it.
+    objects: cell.objects.filter(({ name }) => name !== "Column"),
+    robot: { ...cell.robot, worldFromBase: { position: [position[0] - 0.35, position[1], position[2]], quaternion } },
+  });
+  const ok = () =>
+    page.evaluate(() => {
+      const { stale, verdict } = window.twincell.stores.playStore.getState();
+      return stale ? null : verdict?.ok;
+    });
+  expect(await ok()).toBe(false);
+  await page.keyboard.press("3");
+  await page.getByRole("checkbox", { name: "Base position map" }).check();
+  const move = page.getByRole("button", { name: "Move the robot there" });
+  await move.waitFor({ timeout: 30_000 });
+  await move.scrollIntoViewIfNeeded();
+  const drawnMap = () =>
+    page.evaluate(() => ({
+      squares: window.twincellScene!.scene.getObjectByName("base-map") !== undefined,
+      beacon: window.twincellScene!.scene.getObjectByName("base-beacon") !== undefined,
+    }));
+  expect(await drawnMap()).toEqual({ squares: true, beacon: true });
+  await page.screenshot({ path: picture("base-map") });
+  await move.click();
+  await expect.poll(ok, { timeout: 60_000 }).toBe(true);
+  await page.getByRole("checkbox", { name: "Base position map" }).uncheck();
+  await expect.poll(drawnMap).toEqual({ squares: false, beacon: false });
+  expect(problems).toEqual([]);
+});
+
 test("the timeline plays at any speed, holds at 0 %, and the robot stands where the plan says", async () => {
   const { page, problems } = await studio.open();
   await opened(page, cell);

@@ -1,6 +1,7 @@
 import { del, get, keys, set } from "idb-keyval";
 import { startCommands } from "./commands/index.ts";
 import { startSounds } from "./features/sounds/sounds.ts";
+import { startBaseMap } from "./runtime/planning/base-map.ts";
 import { startChecking } from "./runtime/planning/checking.ts";
 import { watchCollisions } from "./runtime/collision/collision.ts";
 import { startFollowing } from "./runtime/robot/follow.ts";
@@ -83,6 +84,7 @@ export function boot(): void {
   startTexts();
   const checking = startChecking();
   startRepairing();
+  startBaseMap();
   startCommands(checking);
   const beat = (now_ms: number): void => {
     tick(now_ms);

@@ -12,6 +12,7 @@ import { playStore } from "../stores/play.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
+import { baseMapStore } from "../stores/base-map.ts";
 import { repairStore } from "../stores/repairs.ts";
 import { viewStore } from "../stores/view.ts";
 import { type CameraWishes, Controls } from "./camera/controls.tsx";
@@ -46,6 +47,7 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const BaseMapView = lazy(() => import("./base-map-view.tsx").then(part => ({ default: part.BaseMapView })));
 const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
 const Display = lazy(() => import("./gizmo/display.tsx"));
@@ -58,6 +60,7 @@ const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode);
+  const baseMap = useStore(baseMapStore, state => state.on && state.field !== null);
   const repairShown = useStore(repairStore, state => state.shown !== null);
   const inHeadset = useStore(viewStore, state => state.inHeadset);
   const wish = useStore(viewStore, state => state.headsetWish);
@@ -119,6 +122,11 @@ export function Viewport() {
             {document && robot && repairShown && (
               <Suspense fallback={null}>
                 <RepairGhost document={document} robot={robot} tool={tool} />
+              </Suspense>
+            )}
+            {baseMap && (
+              <Suspense fallback={null}>
+                <BaseMapView />
               </Suspense>
             )}
             {document?.objects.map(object => (

@@ -1,4 +1,5 @@
 import type {
+  BaseField,
   CellGeometry,
   Detour,
   Explanation,
@@ -6,6 +7,7 @@ import type {
   Program,
   RepairedProgram,
   SelfCollisionEscape,
+  SuggestedBase,
 } from "@twincell/core";
 
 /** What moves with a frame of the cell, and what a person calls what stands in it. */
@@ -45,7 +47,8 @@ export type PlanTask =
     }
   | { readonly kind: "learn"; readonly robot: string; readonly cell: CellGeometry }
   | ({ readonly kind: "explain"; readonly step: string } & RepairQuestion)
-  | ({ readonly kind: "repair-all" } & RepairQuestion);
+  | ({ readonly kind: "repair-all" } & RepairQuestion)
+  | ({ readonly kind: "base-field" } & RepairQuestion);
 export interface ToPlanner {
   readonly id: number;
   readonly task: PlanTask;
@@ -57,5 +60,12 @@ export type FromPlanner =
   | { readonly kind: "go"; readonly id: number; readonly answer: SelfCollisionEscape }
   | { readonly kind: "learnt"; readonly id: number; readonly matrix: PairMatrix }
   | { readonly kind: "explained"; readonly id: number; readonly explanation: Explanation | null }
+  | { readonly kind: "field-so-far"; readonly id: number; readonly field: BaseField }
+  | {
+      readonly kind: "base-field";
+      readonly id: number;
+      readonly field: BaseField;
+      readonly best: SuggestedBase | null;
+    }
   | ({ readonly kind: "repaired"; readonly id: number } & Pick<RepairedProgram, "applied" | "left">)
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

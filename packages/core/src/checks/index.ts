@@ -9,5 +9,14 @@ export { standOf } from "./stand.ts";
 export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";
 export { NEAR_LIMIT_RAD } from "./limits.ts";
 export { NEAR_SINGULAR_RAD } from "./singular.ts";
+export {
+  baseField,
+  baseShift,
+  ROOMY_RAD,
+  suggestBase,
+  type BaseField,
+  type BaseSquare,
+  type SuggestedBase,
+} from "./base-field.ts";
 export { pathPieces, type PathPiece } from "./path-pieces.ts";
 export * from "./repair/index.ts";

@@ -36,8 +36,8 @@ const WORSE: Readonly<Record<StepVerdict, number>> = { ok: 0, unknown: 1, warn: 
 
 /**
  * The way of the TCP through a checked program, cut where its verdict changes (rows L-38, L-39): within a motion where
- * a joint comes within 10° of its limit, where it passes it, and where something touches. What a finding says of a whole
- * step, as a speed, holds for all of it. A straight line leads to a target that nothing reaches.
+ * a joint comes within 10° of its limit, where it passes it, and where something touches. What a finding says of a
+ * whole step, as a speed, holds for all of it. A straight line leads to a target that nothing reaches.
  *
  * @param cell  the one that the program was checked with; nothing touches without it.
  */

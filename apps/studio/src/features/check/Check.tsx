@@ -1,3 +1,4 @@
+import { selectedProgram } from "@twincell/project";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
@@ -5,6 +6,7 @@ import { programOf, robotOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationStore } from "../../stores/stations.ts";
 import { words } from "../../messages/index.ts";
+import { BaseMap } from "./BaseMap.tsx";
 import { JointColumn } from "./JointColumn.tsx";
 import { figures } from "./figures.ts";
 import { WhyCards } from "./WhyCards.tsx";
@@ -15,6 +17,7 @@ export function Check() {
   const { verdict, checking, trouble: problem, plan, withOthers } = useStore(playStore);
   const others = useStore(stationStore, state => state.stations.length);
   const robot = useStore(cellStore, state => robotOf(state.document));
+  const ours = useStore(cellStore, ({ document }) => document !== null && selectedProgram(document) !== undefined);
   const steps = useStore(cellStore, state => programOf(state.document)?.steps.length ?? 0);
   return (
     <>
@@ -74,6 +77,7 @@ export function Check() {
           )}
         </div>
       </section>
+      {verdict && ours && <BaseMap />}
       {verdict && robot && (
         <section aria-label={words.check.title}>
           <h2 className="heading">

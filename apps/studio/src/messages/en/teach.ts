@@ -77,6 +77,7 @@ export const teachWords = {
     repair: "Apply repair",
     pairs: "Change checked pairs",
     repairAll: "Repair all",
+    moveBase: "Move the robot",
     moveObject: "Move object",
     size: "Change size",
     tool: "Choose tool",

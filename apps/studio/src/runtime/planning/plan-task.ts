@@ -1,5 +1,8 @@
 import {
+  baseField,
   CellCollider,
+  suggestBase,
+  type BaseField,
   learnPairs,
   robotAndCell,
   robotById,
@@ -57,6 +60,19 @@ export function planTask(
     case "repair-all": {
       const { applied, left } = repairAll(task.program, robot, repairOptions(task), options.onProgress);
       return { kind: "repaired", id, applied, left };
+    }
+    case "base-field": {
+      const { cell, program, margin_m } = task;
+      const { worldFromBase } = cell;
+      let field: BaseField = { points: 0, square_m: 0, squares: [], complete: false };
+      for (field of baseField(program, robot, worldFromBase)) tell({ kind: "field-so-far", id, field });
+      const asked = { cell, margin_m, worldFromBase };
+      return {
+        kind: "base-field",
+        id,
+        field,
+        best: suggestBase(field, program, robot, asked, options.onProgress) ?? null,
+      };
     }
     case "learn":
       return { kind: "learnt", id, matrix: learnPairs(task.cell, robot.arm, SEED, LEARN_SAMPLES, robot.home_rad) };

@@ -33,7 +33,7 @@ export class BackgroundSearch {
   private planner: Planner | null = null;
   private id = 0;
 
-  /** `hear` is told how far it is, and once, at the end, what came of it. */
+  /** `hear` is told how far it is and what is known so far, and once, at the end, what came of it. */
   begin(task: PlanTask, hear: (message: FromPlanner) => void): void {
     this.cancel();
     const mine = ++this.id;
@@ -41,7 +41,7 @@ export class BackgroundSearch {
     this.planner = hired;
     hired.listen(message => {
       if (this.planner !== hired || (message.id !== mine && message.id !== -1)) return;
-      if (message.kind !== "progress") this.cancel();
+      if (message.kind !== "progress" && message.kind !== "field-so-far") this.cancel();
       hear(message);
     });
     hired.post({ id: mine, task });

@@ -105,7 +105,8 @@ function search(
   });
 }
 
-function question(): RepairQuestion | null {
+/** The program on screen as it is judged; null where its steps cannot be changed, or there is none. */
+export function question(): RepairQuestion | null {
   const { document } = cellStore.getState();
   const robot = robotOf(document);
   return document && robot ? asQuestion(document, robot) : null;
