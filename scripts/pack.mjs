@@ -84,6 +84,8 @@ async function bundle() {
     entryFileNames: "[name].js",
     chunkFileNames: "[name]-[hash].js",
     banner: "const __dirname = import.meta.dirname;",
+    // Names stay, so that a fault that somebody reports can be read.
+    minify: { compress: false, mangle: false, codegen: { removeWhitespace: true } },
   });
   await made.close();
   cpSync(join(root, "node_modules/@bokuweb/zstd-wasm/dist/common/zstd.wasm"), join(folder, "cli/zstd.wasm"));

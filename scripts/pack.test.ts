@@ -72,7 +72,7 @@ describe("M-64 the package that npm run pack makes", () => {
     const cli = join(folder, "node_modules/twincell/cli");
     const modules = readdirSync(cli).filter(name => name.endsWith(".js"));
     const started = modules.flatMap(name =>
-      [...readFileSync(join(cli, name), "utf8").matchAll(/new URL\("\.\/([^"]+)", import\.meta\.url\)/g)].map(
+      [...readFileSync(join(cli, name), "utf8").matchAll(/new URL\(["`]\.\/([^"`]+)["`], ?import\.meta\.url\)/g)].map(
         found => found[1]!,
       ),
     );

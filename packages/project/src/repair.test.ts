@@ -1,8 +1,9 @@
-import { identity, type Vector3 } from "@twincell/core";
+import { identity, linkSolids, RepairSearch, robotById, tracedEdgeOf, type Vector3 } from "@twincell/core";
 import { expect, test } from "vitest";
 import type { CellDocument, ObjectRecord } from "./document.ts";
 import { tracedCartonCell } from "./example/index.ts";
 import { selectedProgram } from "./programs.ts";
+import { cellGeometry } from "./mesh/shape.ts";
 import { framesWith, nameOfFrame, objectsOfFrame, repairCell } from "./repair.ts";
 
 const like: ObjectRecord = tracedCartonCell().objects[0]!;
@@ -66,4 +67,34 @@ test("a robot that is moved leaves parts, frames and points where they are", () 
   expect(moved.robot.worldFromBase.position[0] - start.robot.worldFromBase.position[0]).toBeCloseTo(0.3, 12);
   expect(moved.objects).toBe(start.objects);
   expect(moved.frames).toBe(start.frames);
+});
+
+test("points that were moved off the edge they were traced on are put back onto it by one repair, also where they are out of reach", () => {
+  const start = tracedCartonCell();
+  const robot = robotById(start.robot.id)!;
+  const program = selectedProgram(start)!;
+  const judge = (document: CellDocument) => {
+    const cell = cellGeometry(document, linkSolids(robot));
+    return new RepairSearch(selectedProgram(document)!, robot, { cell });
+  };
+  const away = new Set(
+    Object.values(program.groups)
+      .flatMap(group => tracedEdgeOf(group)?.edgeSteps ?? [])
+      .slice(0, 2),
+  );
+  for (const by_m of [[0.06, -0.04, 0.03] as const, [1.6, 0, 0.1] as const]) {
+    const steps = program.steps.map(step => {
+      if (step.type !== "move" || !("pose" in step.target) || !away.has(step.id)) return step;
+      const [x, y, z] = step.target.pose.position;
+      const position: Vector3 = [x + by_m[0], y + by_m[1], z + by_m[2]];
+      return { ...step, target: { ...step.target, pose: { ...step.target.pose, position } } };
+    });
+    const broken: CellDocument = { ...start, programs: [{ ...program, steps }] };
+    const search = judge(broken);
+    const bad = search.bad.find(id => away.has(id))!;
+    const [repair] = search.explain(bad)!.repairs;
+    expect(repair).toMatchObject({ kind: "edge", reaches: { bad: 0 } });
+    expect(repair!.sentence).toMatch(/^Put (the point|\d points) back onto the edge of Carton\.$/);
+    expect(judge(repairCell(broken, program.name, bad, repair!)).bad).toEqual([]);
+  }
 });

@@ -2,18 +2,17 @@ import {
   checkProgram,
   keptSentence,
   linkSolids,
-  RepairSearch,
   robotById,
   readCertificate,
   verifyProgram,
   writeCertificate,
-  type Explanation,
   type ProgramCertificateVerdict,
   type Verdict,
 } from "@twincell/core";
-import { cellGeometry, framesWith, nameOfFrame, objectsOfFrame } from "@twincell/project";
+import { cellGeometry } from "@twincell/project";
 import { executeText } from "@twincell/languages";
 import { given, type Given } from "../io/arguments.ts";
+import { explained, MOST_EXPLAINED, repairSearch } from "../io/explained.ts";
 import { inputsFrom } from "../io/moments.ts";
 import { projectFault, textProject } from "../io/text-project.ts";
 import { writeOne } from "../io/output.ts";
@@ -94,42 +93,19 @@ ${ROBOT_HELP}`,
       await writeOne(certificatePath, writeCertificate(certificate));
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     if (options.flag("json")) {
-      const parts = document && {
-        objectsOf: (frame: string) => objectsOfFrame(document, frame),
-        framesOf: (frame: string) => framesWith(document, frame),
-        nameOf: (frame: string) => nameOfFrame(document, frame),
-      };
-      const search = new RepairSearch(program, robot, { margin_m, ...(cell ? { cell } : {}), ...parts }, checked);
-      process.stdout.write(`${JSON.stringify(explained(verdict, search))}\n`);
+      const search = repairSearch(program, robot, { margin_m, ...(cell ? { cell } : {}) }, checked, document);
+      const answer = explained(checked, search);
+      if (answer.leftOut > 0)
+        process.stderr.write(
+          `twincell: ${MOST_EXPLAINED} of ${MOST_EXPLAINED + answer.leftOut} bad steps are explained.\n`,
+        );
+      process.stdout.write(`${JSON.stringify(answer.verdict)}\n`);
     } else process.stdout.write(`${JSON.stringify(verdict)}\n`);
     if (cell?.placeErrors) process.stderr.write(`${keptSentence(cell, margin_m)}\n`);
     if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
     return verdict.ok ? 0 : 1;
   },
 };
-
-/** More bad steps than this are not explained: each is a search of its own. */
-const MOST_EXPLAINED = 20;
-
-/** The verdict, each bad step with why it is so and what would change that. */
-function explained(verdict: Verdict, search: RepairSearch): object {
-  let left = MOST_EXPLAINED;
-  const steps = verdict.steps.map(step => {
-    const explanation = step.verdict === "bad" && left-- > 0 ? search.explain(step.id) : undefined;
-    return explanation === undefined ? step : { ...step, repair: asJson(explanation) };
-  });
-  if (left < 0)
-    process.stderr.write(`twincell: ${MOST_EXPLAINED} of ${MOST_EXPLAINED - left} bad steps are explained.\n`);
-  return { ...verdict, steps };
-}
-
-const asJson = ({ cause, sentence, out, repairs, tried }: Explanation): object => ({
-  cause,
-  sentence,
-  ...(out === undefined ? {} : { out }),
-  repairs,
-  tried,
-});
 
 /** A vendor's text, executed and judged: the verdict of a taught program, each step with its file and line. */
 async function checkText(options: Given, chosen: RobotToRun | undefined, margin_m: number): Promise<number> {

@@ -14,6 +14,7 @@ import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
 import { jogCommand } from "./jog.ts";
 import { meshCommand } from "./mesh.ts";
+import { mcpCommand } from "./mcp.ts";
 import { moveCommand } from "./move.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
@@ -55,6 +56,7 @@ export const COMMANDS: readonly Command[] = [
   demonstrateCommand,
   importCommand,
   meshCommand,
+  mcpCommand,
   doctorCommand,
   tokenCommand,
   auditCommand,

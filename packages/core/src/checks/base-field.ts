@@ -41,7 +41,7 @@ const HALF_M = 1.2;
 const SQUARE_M = 0.1;
 /** Squares of one side of a coarse one. */
 const COARSE = [4, 2, 1] as const;
-const MOST_POINTS = 160;
+const MOST_POSES = 160;
 /** Points looked at on a straight line or an arc. */
 const LOOKS = 9;
 const MOST_CHECKED = 10;
@@ -164,8 +164,8 @@ function pathOf({ move, from, before }: PlacedMove) {
 }
 
 function thinned(poses: readonly Pose<"base", "flange">[]): readonly Pose<"base", "flange">[] {
-  if (poses.length <= MOST_POINTS) return poses;
-  return Array.from({ length: MOST_POINTS }, (_, i) => poses[Math.floor((i * poses.length) / MOST_POINTS)]!);
+  if (poses.length <= MOST_POSES) return poses;
+  return Array.from({ length: MOST_POSES }, (_, i) => poses[Math.floor((i * poses.length) / MOST_POSES)]!);
 }
 
 /** Where the best base is, as a shift. */

@@ -1,13 +1,14 @@
 import type { CellGeometry } from "../collision/cell.ts";
 import type { TriangleMesh } from "../mesh/mesh.ts";
 import { flangePose } from "../kinematics/forward.ts";
-import { distanceToPolyline } from "../paths/curve.ts";
+import { distanceToPolyline, nearestOnPolyline } from "../paths/curve.ts";
 import { featureEdges, type FeatureEdges } from "../paths/features.ts";
-import { compose, identity, transformPoint, type Pose } from "../spatial/pose.ts";
-import type { Vector3 } from "../spatial/vector.ts";
-import { targetInBase, toolOf } from "../trajectory/moves.ts";
+import { compose, identity, inverse, transformPoint, type Pose } from "../spatial/pose.ts";
+import { distance, type Vector3 } from "../spatial/vector.ts";
+import { poseTarget, targetInBase, toolOf } from "../trajectory/moves.ts";
 import type { Group, MoveStep } from "../program/program.ts";
 import { everyStep } from "../program/walk.ts";
+import type { Repair } from "./verdict.ts";
 import { motions, startOf, type CheckScene } from "./scene.ts";
 
 /** Faces that bend by more than this meet in an edge that is traced [rad]. */
@@ -34,6 +35,8 @@ export function tracedEdgeOf(group: Group): TracedEdgeRecord | undefined {
 }
 /** Of a recipe without tolerances [m]. */
 const DEFAULT_M = 0.0005;
+/** Ends of an edge that are nearer to each other than this are one: it is closed [m]. */
+const SAME_PLACE_M = 1e-6;
 
 const known = new WeakMap<TriangleMesh, FeatureEdges>();
 function edgesOf(mesh: TriangleMesh): FeatureEdges {
@@ -85,6 +88,8 @@ export function checkEdges(scene: CheckScene, cell: CellGeometry): void {
     const line = chain.points.map(point => transformPoint(object.worldFromObject as Pose, point));
     for (const step of steps) note(step.id, distanceToPolyline(line, placeOf(scene, step)), startOf(scene, step.id));
     measureMotions(scene, steps, stuck, line, note);
+    const back = backOntoEdge(scene, steps, line, record.tolerance_m);
+    const ends = backToItsEnds(scene, back, steps, line);
     for (const step of steps) {
       const worst = off.get(step.id);
       if (worst === undefined || worst.value <= record.tolerance_m) continue;
@@ -94,11 +99,73 @@ export function checkEdges(scene: CheckScene, cell: CellGeometry): void {
         limit: record.tolerance_m,
         unit: "m",
         at_s: worst.at_s,
-        repairs: [],
+        repairs: [...edgeRepairs(step, back, object.name), ...edgeRepairs(step, ends, object.name)],
         sentence: `${mm(worst.value)} mm off the edge of ${object.name} it was traced on; ${mm(record.tolerance_m)} mm are allowed. Trace the edge again, or attach the points to ${object.name} before you move it.`,
       });
     }
   }
+}
+
+/** The steps whose own points are off the edge, each with its point put on the nearest spot of it. */
+function backOntoEdge(
+  scene: CheckScene,
+  steps: readonly MoveStep[],
+  line: readonly Vector3[],
+  tolerance_m: number,
+): readonly MoveStep[] {
+  return steps.flatMap(step => {
+    const place = placeOf(scene, step);
+    if (!("pose" in step.target) || distanceToPolyline(line, place) <= tolerance_m) return [];
+    return [movedTo(scene, step, nearestOnPolyline(line, place))];
+  });
+}
+
+/**
+ * The same steps, the first and the last of the edge at its two ends: a point that was moved far has its nearest spot
+ * anywhere on the edge. Empty for an edge that is closed, or where neither of the two is among them.
+ */
+function backToItsEnds(
+  scene: CheckScene,
+  back: readonly MoveStep[],
+  steps: readonly MoveStep[],
+  line: readonly Vector3[],
+): readonly MoveStep[] {
+  const [first, last] = [steps[0]!, steps.at(-1)!];
+  const [a, b] = [line[0]!, line.at(-1)!];
+  const isOff = ({ id }: MoveStep): boolean => back.some(step => step.id === id);
+  if (first === last || distance(a, b) < SAME_PLACE_M || !(isOff(first) || isOff(last))) return [];
+  // The one that is still there says which end is whose.
+  const [known, of] = isOff(first) ? [placeOf(scene, last), "last"] : [placeOf(scene, first), "first"];
+  const near = distance(known, a) <= distance(known, b) ? [a, b] : [b, a];
+  const [start, end] = of === "first" ? near : [near[1]!, near[0]!];
+  return back.map(step =>
+    step.id === first.id ? movedTo(scene, step, start!) : step.id === last.id ? movedTo(scene, step, end!) : step,
+  );
+}
+
+/** A step with its point at a place of the world, its orientation kept. */
+function movedTo(scene: CheckScene, step: MoveStep, place: Vector3): MoveStep {
+  const { target } = step;
+  if (!("pose" in target)) return step;
+  const { quaternion } = targetInBase(target, scene.robot, scene.context);
+  const baseFromWorld = inverse(scene.context.worldFromBase ?? identity<"world", "base">());
+  const position = transformPoint(baseFromWorld, place);
+  return { ...step, target: poseTarget({ position, quaternion }, target, scene.context) };
+}
+
+/** All of them at once: a point that stays off leaves the way to its neighbours off too. */
+function edgeRepairs(step: MoveStep, back: readonly MoveStep[], object: string): readonly Repair[] {
+  if (back.length === 0) return [];
+  const own = back.find(({ id }) => id === step.id);
+  const count = back.length;
+  return [
+    {
+      kind: "edge",
+      sentence: `Put ${count === 1 ? "the point" : `${count} points`} back onto the edge of ${object}.`,
+      ...(own === undefined ? {} : { replace: own }),
+      alsoReplace: back.filter(each => each !== own),
+    },
+  ];
 }
 
 /** The tool on its way between neighbouring points of the edge, at every instant of the plan. */

@@ -1,12 +1,16 @@
 import type { ProgramChange } from "../program/edit.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 
-/** What a way out changes. "target": the point is moved; "part": what it was taught on; "base": the robot. */
+/**
+ * What a way out changes. "target": the point is moved; "edge": points are put back onto the edge they were traced on;
+ * "part": what it was taught on; "base": the robot.
+ */
 export type RepairKind =
   | "branch"
   | "spin"
   | "tilt"
   | "target"
+  | "edge"
   | "part"
   | "base"
   | "joint"

@@ -136,6 +136,24 @@ export function distanceToPolyline(polyline: readonly Vector3[], point: Vector3)
   return least;
 }
 
+/** The spot of a polyline that is nearest to a point; the point itself for one without points. */
+export function nearestOnPolyline(polyline: readonly Vector3[], point: Vector3): Vector3 {
+  let best = polyline[0] ?? point;
+  let least = distance(point, best);
+  for (let i = 1; i < polyline.length; i++) {
+    const [a, b] = [polyline[i - 1]!, polyline[i]!];
+    const along = subtract(b, a);
+    const squared = dot(along, along);
+    const t = squared > 0 ? Math.min(1, Math.max(0, dot(subtract(point, a), along) / squared)) : 0;
+    const spot: Vector3 = [a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]];
+    const away = distance(point, spot);
+    if (away >= least) continue;
+    least = away;
+    best = spot;
+  }
+  return best;
+}
+
 export function distanceToSegment(a: Vector3, b: Vector3, point: Vector3): number {
   const along = subtract(b, a);
   const from = subtract(point, a);

@@ -35,6 +35,8 @@ export interface RepairScene {
   readonly postures: PathFit;
   readonly step: MoveStep;
   readonly finding: Finding;
+  /** What else was found of the step. */
+  readonly others: readonly Finding[];
   /** The frames that are moved with one of them, itself among them. */
   readonly framesOf: (frame: string) => readonly string[];
 }
@@ -43,6 +45,7 @@ export interface RepairScene {
 const EFFORT: Partial<Record<RepairKind, number>> = {
   branch: 0.15,
   slower: 0.2,
+  edge: 0.25,
   target: 0.3,
   "joint-move": 0.4,
   detour: 0.8,
@@ -58,10 +61,11 @@ const MOST_TRIED = 200;
 const SAME_RAD = 1e-6;
 
 /** Ways out that the check itself offered, without the turns and shifts that are searched for here more finely. */
-export function offered({ finding }: RepairScene): readonly Candidate[] {
+export function offered({ finding, others }: RepairScene): readonly Candidate[] {
   const coarse: readonly (RepairKind | undefined)[] =
     finding.code === "collision.contact" ? [] : ["spin", "tilt", "target", "part", "base"];
-  return finding.repairs.flatMap((repair): Candidate[] => {
+  const edges = others.flatMap(({ repairs }) => repairs.filter(({ kind }) => kind === "edge"));
+  return [...finding.repairs, ...edges].flatMap((repair): Candidate[] => {
     const { kind } = repair;
     if (kind === undefined || coarse.includes(kind)) return [];
     return [{ repair: { ...repair, kind }, amount: 1, unit: "1", effort: EFFORT[kind] ?? 0.5 }];

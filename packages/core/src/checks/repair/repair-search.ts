@@ -155,10 +155,11 @@ export class RepairSearch {
     };
     if (step?.type !== "move") return { ...said, repairs: this.provenOf(id, finding, step?.id), tried: [] };
     const tried: string[] = [];
-    return { ...said, repairs: this.search(step, finding, tried), tried };
+    return { ...said, repairs: this.search(step, report.findings, tried), tried };
   }
 
-  private search(step: MoveStep, finding: Finding, tried: string[]): readonly ProvenRepair[] {
+  private search(step: MoveStep, findings: readonly Finding[], tried: string[]): readonly ProvenRepair[] {
+    const [finding, ...others] = findings as readonly [Finding, ...Finding[]];
     const { program, robot, worldFromBase, moves, fit, postures, options } = this;
     const scene: RepairScene = {
       program,
@@ -170,6 +171,7 @@ export class RepairSearch {
       postures,
       step,
       finding,
+      others,
       framesOf: options.framesOf ?? alone,
     };
     const nameOf = options.nameOf ?? ((frame: string) => frame);
@@ -182,6 +184,8 @@ export class RepairSearch {
     const found: ProvenRepair[] = [];
     for (const [name, candidates] of kinds) {
       if (options.cancelled?.() === true || this.checksLeft <= 0) break;
+      // Points belong on the edge they were traced on: no turn or shift says it better.
+      if (found.some(({ kind }) => kind === "edge")) break;
       const proven = this.first(candidates, step.id, finding);
       if (proven !== undefined) found.push(proven);
       else if (name !== "" && this.checksLeft > 0) tried.push(`${name} does not help.`);
