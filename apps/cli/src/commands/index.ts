@@ -18,6 +18,7 @@ import { mcpCommand } from "./mcp.ts";
 import { moveCommand } from "./move.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
+import { reachCommand } from "./reach.ts";
 import { recordCommand } from "./record.ts";
 import { replayCommand } from "./replay.ts";
 import { robotsCommand } from "./robots.ts";
@@ -36,6 +37,7 @@ export const COMMANDS: readonly Command[] = [
   fkCommand,
   ikCommand,
   checkCommand,
+  reachCommand,
   simulateCommand,
   validateCommand,
   datasetCommand,

@@ -18,5 +18,6 @@ export {
   type BaseSquare,
   type SuggestedBase,
 } from "./base-field.ts";
+export { reachReport, reachTable, type ReachPoint, type ReachReport } from "./reach-report.ts";
 export { pathPieces, type PathPiece } from "./path-pieces.ts";
 export * from "./repair/index.ts";
