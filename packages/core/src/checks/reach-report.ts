@@ -16,7 +16,7 @@ export interface ReachPoint {
   readonly position_m: Vector3;
   /** Postures that bring the tool there inside every limit; 1 or 0 for a point taught as joint angles. */
   readonly postures: number;
-  /** In the best of them: the joint nearest to a limit, counted from 1, and how far it is from it [rad; m of a slide]. */
+  /** In the best of them: the joint nearest to a limit, from 1, and how far it is from it [rad; m of a slide]. */
   readonly room?: { readonly joint: number; readonly value: number };
   /** Why there is none. */
   readonly sentence?: string;
