@@ -1,10 +1,10 @@
 import { openCamera } from "../runtime/video/camera.ts";
 import { startSender, type Sender } from "../runtime/video/sender.ts";
-import { videoWords } from "../messages/en/video.ts";
+import { words as all } from "../messages/index.ts";
 import "../tokens.css";
 import "./camera-page.css";
 
-const { camera: words, noSafety } = videoWords;
+const { camera: words, noSafety } = all.video;
 const root = document.getElementById("root")!;
 
 /** One element with its words. */

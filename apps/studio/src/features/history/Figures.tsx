@@ -7,6 +7,7 @@ import { historyStore } from "../../stores/history.ts";
 import { serviceStore, setServiceTravel } from "../../stores/service.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
+import { whole } from "../../messages/numbers.ts";
 import { clockOf } from "./times.ts";
 import { Trend } from "./Trend.tsx";
 
@@ -164,6 +165,9 @@ function Joints({
   );
 }
 
+const hoursWords = (hours: number): string =>
+  Number.isFinite(hours) ? words.history.hoursOf(hours) : words.history.noEnd;
+
 const DEGREES = 180 / Math.PI;
 const MILLIMETRES = 1000;
 const slides = (robot: Robot | undefined, joint: number): boolean =>
@@ -173,9 +177,7 @@ const slides = (robot: Robot | undefined, joint: number): boolean =>
 function Travel({ travel, robot }: { readonly travel: readonly JointTravel[]; readonly robot: Robot | undefined }) {
   const most = Math.max(...travel.map(joint => joint.travel), 1e-9);
   const far = (joint: number, way: number): string =>
-    slides(robot, joint - 1)
-      ? `${Math.round(way * MILLIMETRES).toLocaleString("en")} mm`
-      : `${Math.round(way * DEGREES).toLocaleString("en")}°`;
+    slides(robot, joint - 1) ? `${whole(way * MILLIMETRES)} mm` : `${whole(way * DEGREES)}°`;
   return (
     <table className="history-travel">
       <tbody>
@@ -188,7 +190,7 @@ function Travel({ travel, robot }: { readonly travel: readonly JointTravel[]; re
             <td>{far(joint, all)}</td>
             <td className="muted">
               {service.kind === "reported"
-                ? words.history.served(percent(service.value.share), words.history.hoursOf(service.value.hoursLeft))
+                ? words.history.served(percent(service.value.share), hoursWords(service.value.hoursLeft))
                 : `${far(joint, perHour)} ${words.history.perHour}`}
             </td>
           </tr>

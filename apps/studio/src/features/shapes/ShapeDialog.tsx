@@ -8,12 +8,12 @@ import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../messages/index.ts";
+import { whole } from "../../messages/numbers.ts";
 import "./shapes.css";
 
 const UNITS = ["0.001", "0.01", "1", "0.0254"] as const;
 /** What a phone or headset draws without effort, beside the rest of a cell. */
 const LIGHT_TRIANGLES = 80_000;
-const whole = (count: number): string => count.toLocaleString("en");
 const mm = (length_m: number, digits: number): string => `${showNumber(length_m, "length", digits)} mm`;
 
 /** What came of an import: what it measures, what was mended, its unit to be corrected, and fewer triangles. */

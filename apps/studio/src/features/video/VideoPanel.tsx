@@ -8,6 +8,7 @@ import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel as Panel } from "../../stores/video.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../messages/index.ts";
+import { ageWords } from "../../messages/phrases.ts";
 import { movable } from "./movable.ts";
 
 const SAY_EVERY_MS = 250;
@@ -169,7 +170,7 @@ function Age({ id }: { readonly id: string }) {
     const sorted = ages.current.toSorted((a, b) => a - b);
     const at = element.current;
     if (!feed || !at || sorted.length === 0) return;
-    at.textContent = words.video.age(sorted[sorted.length >> 1]!);
+    at.textContent = ageWords(sorted[sorted.length >> 1]!);
     const { stages } = feed;
     const { ms } = words.video;
     at.title = `${words.video.ageTip} ${words.video.uncertain(feed.uncertain_s)}${stages ? `\n${words.video.stages(ms(stages.taken_s), ms(stages.toServer_s), ms(stages.toHere_s), ms(stages.unpacked_s))}` : ""}`;

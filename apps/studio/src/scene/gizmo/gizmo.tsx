@@ -316,7 +316,9 @@ class Drag {
       });
       const found = onto
         .filter(({ kind }) => kind !== "grid")
-        .map(({ kind, name }) => words.build.onto[kind as "floor"](name));
+        .map(({ kind, name }) =>
+          kind === "face" || kind === "middle" ? words.build.onto[kind](name) : words.build.onto.floor,
+        );
       return [...parts, ...found].join(" · ") + typed;
     }
     if (this.controls.mode === "rotate") {

@@ -9,6 +9,7 @@ import { jogStore } from "../../stores/jog.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { solidName } from "../pick/thing-words.ts";
 import { toScene } from "../world-space.ts";
+import { capital } from "../../messages/phrases.ts";
 import { WORDS } from "../words.ts";
 
 /** Capitals are 23 mm high at this distance and nearer, and as large to the eye farther away. */
@@ -28,7 +29,9 @@ export function WhyCard() {
   const document = useStore(cellStore, state => state.document);
   const sentence =
     blocked ??
-    (contact && document ? WORDS.touch(solidName(contact[0], document), solidName(contact[1], document)) : undefined);
+    (contact && document
+      ? capital(WORDS.touch(solidName(contact[0], document), solidName(contact[1], document)))
+      : undefined);
   const card = useRef<Group>(null);
   useFrame(({ camera }) => {
     const at = card.current;
