@@ -12,7 +12,17 @@ afterAll(async () => {
 });
 
 const MODES = ["cell", "teach", "check", "run", "history"] as const;
-const DIALOGS = ["palette", "shortcuts", "controls", "export", "import", "robots", "cells", "collision", "cameras"] as const;
+const DIALOGS = [
+  "palette",
+  "shortcuts",
+  "controls",
+  "export",
+  "import",
+  "robots",
+  "cells",
+  "collision",
+  "cameras",
+] as const;
 
 /** Every text that a person sees or hears and that is not marked as data: text, names, hints, placeholders. */
 const texts = (page: Page): Promise<readonly string[]> =>

@@ -39,6 +39,10 @@ const namesOf = (text: string, path: string, language: string): readonly string[
   [...new Set(used(parse(text, path, language)).map(({ name }) => name))].sort();
 
 describe("the catalogues of texts", () => {
+  test("there are English and German", () => {
+    expect(languages.slice(0, 2)).toEqual(["en", "de"]);
+  });
+
   test("each language has every text of English and none besides", () => {
     const wrong = LOCALES.flatMap(({ language, texts }) => [
       ...[...ENGLISH.keys()].filter(key => !texts.has(key)).map(key => `${language} lacks ${key}`),
@@ -173,6 +177,8 @@ describe("the language of a page", () => {
     expect(chosenLanguage("?lang=pseudo", null, undefined)).toBe("en-XA");
     expect(chosenLanguage("?lang=tlh", null, ["xx", "en-GB"])).toBe("en");
     expect(chosenLanguage("", "en", ["fr"])).toBe("en");
+    expect(chosenLanguage("?lang=de", "en", ["en"])).toBe("de");
+    expect(chosenLanguage("", null, ["fr", "de-AT", "en"])).toBe("de");
     expect(chosenLanguage("", null, ["xx"])).toBe("en");
   });
 

@@ -2,8 +2,12 @@ const PLAIN = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
 const ACCENTED = "ÅƁÇÐÉƑĜĤÎĴĶĻṀÑÖÞǪŔŠŢÛṼŴẊÝŽåƀçðéƒĝĥîĵķļḿñöþǫŕšţûṽŵẋýž";
 const ACCENTS = new Map([...PLAIN].map((letter, i) => [letter, [...ACCENTED][i]!]));
 
-/** Translations are up to a third longer than English. */
-const LONGER = 0.35;
+/** Translations are up to a third longer than English; what is added breaks into lines as words do. */
+const longer = (text: string): string =>
+  "~~~~~ "
+    .repeat(99)
+    .slice(0, Math.round(0.35 * text.trim().length))
+    .trim();
 
 /**
  * A text as the pseudo-language writes it: readable, every letter with an accent, a third longer, in brackets. What is
@@ -12,5 +16,5 @@ const LONGER = 0.35;
 export function pseudo(text: string): string {
   if (!/\p{L}/u.test(text)) return text;
   const accented = [...text].map(letter => ACCENTS.get(letter) ?? letter).join("");
-  return `⟦${accented}${"~".repeat(Math.round(LONGER * text.trim().length))}⟧`;
+  return `⟦${accented}${text.length > 15 ? " " : ""}${longer(text)}⟧`;
 }

@@ -67,7 +67,8 @@ export const checkWords = {
     "onTheWay(a, b, percent: number)": "Not gone: after {percent} % of the way {a} would touch {b}.",
     tooNear: "Not gone: the way comes too near to something to be proven free.",
     goHint: "Jog round it, or choose Find another way under Collision in the cell menu.",
-    "blocked(end, a, b)": "There is no way: at the {end} {a} is in contact with {b}.",
+    "blocked(end, a, b)":
+      "There is no way: at the {end, select, start {start} other {goal}} {a} is in contact with {b}.",
     noWay: "No free way was found.",
     hint: "Make room in the cell, or go there in parts by hand.",
     goes: {
