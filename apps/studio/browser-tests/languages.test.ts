@@ -42,7 +42,7 @@ const texts = (page: Page): Promise<readonly string[]> =>
       const parent = node.parentElement;
       if (!parent || isData(parent) || ["SCRIPT", "STYLE"].includes(parent.tagName)) continue;
       if (!parent.checkVisibility()) continue;
-      const text = node.textContent.trim();
+      const text = (node.textContent ?? "").trim();
       if (text) found.add(`${parent.tagName.toLowerCase()}.${parent.className}: ${text}`);
     }
     return [...found];

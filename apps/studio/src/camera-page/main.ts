@@ -1,6 +1,6 @@
 import { openCamera } from "../runtime/video/camera.ts";
 import { startSender, type Sender } from "../runtime/video/sender.ts";
-import { words as all } from "../messages/index.ts";
+import { say, words as all } from "../messages/index.ts";
 import "../tokens.css";
 import "./camera-page.css";
 
@@ -68,7 +68,7 @@ async function start(): Promise<void> {
   const opened = await openCamera(which.value);
   button.disabled = false;
   if (opened.kind === "refused") {
-    trouble.textContent = opened.sentence;
+    trouble.textContent = say(opened.sentence);
     return;
   }
   const shownAs = name.value.trim() || words.named;
@@ -76,14 +76,14 @@ async function start(): Promise<void> {
   line = words.connecting;
   sender = startSender(opened.stream, shownAs, key, {
     state(link, sentence) {
-      line = link === "open" ? "" : sentence || words.connecting;
+      line = link === "open" ? "" : (sentence && say(sentence)) || words.connecting;
       say();
     },
     watchers(count) {
       watchers = count;
     },
     trouble(sentence) {
-      trouble.textContent = sentence;
+      trouble.textContent = say(sentence);
     },
   });
   stage.replaceChildren(sender.video);

@@ -15,7 +15,7 @@ const ENGLISH = textsOf(en);
 const LOCALES = await Promise.all(
   languages.map(async language => ({
     language,
-    texts: language === "en" ? ENGLISH : textsOf(await translationOf(language)),
+    texts: language === "en" ? ENGLISH : textsOf((await translationOf(language)).catalogue),
   })),
 );
 const signatureAt = (path: string): Signature | null =>
@@ -112,7 +112,7 @@ describe("words", () => {
   };
 
   test("texts are texts, messages are functions of the parameters in the order of the key", () => {
-    const words = wordsOf(catalogue, {}, "en");
+    const words = wordsOf(catalogue, {}, { locale: "en" });
     expect(words.title).toBe("Points");
     expect(words.list[1]).toBe("Y");
     expect([0, 1, 2, 1200].map(n => words.deep.points(n))).toEqual(["no point", "1 point", "2 points", "1,200 points"]);
@@ -121,18 +121,18 @@ describe("words", () => {
   });
 
   test("another language has its own plurals; what it lacks stays English", () => {
-    const words = wordsOf(catalogue, polish, "pl");
+    const words = wordsOf(catalogue, polish, { locale: "pl" });
     expect([1, 3, 5].map(n => words.deep.points(n))).toEqual(["1 punkt", "3 punkty", "5 punktów"]);
     expect(words.title).toBe("Points");
   });
 
   test("a number in a message has the decimal sign of the language and no sign between thousands", () => {
-    expect(wordsOf(catalogue, {}, "en").deep.wait(1234.5)).toBe("Wait 1234.5 s");
-    expect(wordsOf(catalogue, {}, "de").deep.wait(1234.5)).toBe("Wait 1234,5 s");
+    expect(wordsOf(catalogue, {}, { locale: "en" }).deep.wait(1234.5)).toBe("Wait 1234.5 s");
+    expect(wordsOf(catalogue, {}, { locale: "de" }).deep.wait(1234.5)).toBe("Wait 1234,5 s");
   });
 
   test("the pseudo-language marks the text of a catalogue, not what is put into it", () => {
-    const words = wordsOf(catalogue, {}, "en-XA", pseudo);
+    const words = wordsOf(catalogue, {}, { locale: "en-XA", letters: pseudo });
     expect(words.title).toBe("⟦Þöîñţš~~⟧");
     expect(words.deep.pair("a", "b", true)).toBe("a⟦ åñð ~⟧b: ⟦çĥéçķéð~~⟧");
     expect(words.deep.points(2)).toBe("2⟦ þöîñţš~~⟧");

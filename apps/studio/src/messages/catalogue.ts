@@ -104,13 +104,23 @@ export function compiled(
 
 type Call = (...values: readonly (string | number | boolean)[]) => string;
 
+/** How a language says what stands in the catalogue, and what is put into it. */
+export interface Speech {
+  readonly locale: string;
+  /** Changes every text of the catalogue; the pseudo-language marks texts with it. */
+  readonly letters?: (text: string) => string;
+  /** Says a text that is put into a message: the sentence of a package in this language. */
+  readonly said?: (text: string) => string;
+}
+
 /** A message as a function of its parameters. It is parsed at the first call. */
-function call(text: string, signature: Signature, locale: string, letters: (text: string) => string): Call {
+function call(text: string, signature: Signature, { locale, letters, said = unchanged }: Speech): Call {
   const names = signature.parameters.map(({ name }) => name);
   let format: IntlMessageFormat | null = null;
   return (...values) => {
     format ??= compiled(text, signature, locale, letters);
-    return String(format.format(Object.fromEntries(names.map((name, i) => [name, values[i]]))));
+    const put = values.map(value => (typeof value === "string" ? said(value) : value));
+    return String(format.format(Object.fromEntries(names.map((name, i) => [name, put[i]]))));
   };
 }
 
@@ -118,11 +128,12 @@ const isTree = (entry: Entry | undefined): entry is { readonly [key: string]: En
   typeof entry === "object" && !Array.isArray(entry);
 
 /** A text, a list or a tree of a catalogue as words: texts stay texts, messages become functions. */
-function spoken(entry: Entry, other: Entry | undefined, locale: string, letters: (text: string) => string): unknown {
+function spoken(entry: Entry, other: Entry | undefined, speech: Speech): unknown {
+  const { letters = unchanged } = speech;
   if (typeof entry === "string") return letters(typeof other === "string" ? other : entry);
   if (!isTree(entry))
     return entry.map((each: Entry, i: number) =>
-      spoken(each, Array.isArray(other) ? (other as readonly Entry[])[i] : undefined, locale, letters),
+      spoken(each, Array.isArray(other) ? (other as readonly Entry[])[i] : undefined, speech),
     );
   const others = isTree(other) ? other : {};
   return Object.fromEntries(
@@ -130,20 +141,15 @@ function spoken(entry: Entry, other: Entry | undefined, locale: string, letters:
       const signature = signatureOf(key);
       const translated = others[key];
       return signature && typeof each === "string"
-        ? [signature.name, call(typeof translated === "string" ? translated : each, signature, locale, letters)]
-        : [key, spoken(each, translated, locale, letters)];
+        ? [signature.name, call(typeof translated === "string" ? translated : each, signature, speech)]
+        : [key, spoken(each, translated, speech)];
     }),
   );
 }
 
-/**
- * The words of a language: each text of `catalogue`, from `translation` where it has it.
- *
- * @param letters changes every text but not what is put into it; the pseudo-language marks texts with it
- */
+/** The words of a language: each text of `catalogue`, from `translation` where it has it. */
 export const wordsOf = <Catalogue extends Entry>(
   catalogue: Catalogue,
   translation: Translation<Catalogue>,
-  locale: string,
-  letters: (text: string) => string = unchanged,
-): Words<Catalogue> => spoken(catalogue, translation as Entry, locale, letters) as Words<Catalogue>;
+  speech: Speech,
+): Words<Catalogue> => spoken(catalogue, translation as Entry, speech) as Words<Catalogue>;

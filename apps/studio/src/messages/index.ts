@@ -1,17 +1,36 @@
 import { type Words, wordsOf } from "./catalogue.ts";
 import { en } from "./en/index.ts";
 import { type Language, PSEUDO, languageIn, translationOf } from "./languages.ts";
-import { setNumbersOf } from "./numbers.ts";
+import { decimalPoint, setNumbersOf } from "./numbers.ts";
+import { translatorOf } from "./sentences.ts";
 
 /** The language of this page. It is chosen once, when the page loads: another one loads the page again. */
 export const language: Language = languageIn(globalThis);
 
-async function load(): Promise<Words<typeof en>> {
-  setNumbersOf(language);
-  if (typeof document !== "undefined") document.documentElement.lang = language;
-  if (language === PSEUDO) return wordsOf(en, {}, language, (await import("./pseudo.ts")).pseudo);
-  return wordsOf(en, await translationOf(language), language);
+interface Spoken {
+  readonly words: Words<typeof en>;
+  readonly say: (said: string) => string;
 }
 
+async function load(): Promise<Spoken> {
+  setNumbersOf(language);
+  if (typeof document !== "undefined") document.documentElement.lang = language;
+  if (language === PSEUDO) {
+    const { pseudo, pseudoSentence } = await import("./pseudo.ts");
+    return { words: wordsOf(en, {}, { locale: language, letters: pseudo, said: pseudoSentence }), say: pseudo };
+  }
+  const { catalogue, sentences } = await translationOf(language);
+  const say = translatorOf(sentences, decimalPoint());
+  return { words: wordsOf(en, catalogue, { locale: language, said: say }), say };
+}
+
+const spoken = await load();
+
 /** Every text a person sees or hears, in the language of this page. */
-export const words: Words<typeof en> = await load();
+export const { words } = spoken;
+
+/**
+ * What a package said, in the language of this page: refusals, faults, findings, assumptions, reports. What the
+ * language's catalogue does not have is said in English.
+ */
+export const { say } = spoken;

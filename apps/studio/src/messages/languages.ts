@@ -1,5 +1,6 @@
 import type { Translation } from "./catalogue.ts";
 import type { en } from "./en/index.ts";
+import type { Sentences } from "./sentences.ts";
 
 /** A tag of BCP 47: "en", "de", "pt-BR". */
 export type Language = string;
@@ -9,8 +10,14 @@ export const PSEUDO: Language = "en-XA";
 const SOURCE: Language = "en";
 const KEY = "twincell.language";
 
-/** A folder is a language: ./de/index.ts exports the German catalogue as `catalogue`. */
-const catalogues = import.meta.glob<{ readonly catalogue: Translation<typeof en> }>(["./*/index.ts", "!./en/index.ts"]);
+/** What a language's folder exports: the studio's texts, and what packages say. */
+export interface Texts {
+  readonly catalogue: Translation<typeof en>;
+  readonly sentences: Sentences;
+}
+
+/** A folder is a language: ./de/index.ts is German. */
+const catalogues = import.meta.glob<Texts>(["./*/index.ts", "!./en/index.ts"]);
 const folderOf = (language: Language): string => `./${language}/index.ts`;
 
 /** Every language there is a catalogue for, English first. The pseudo-language is asked for by name only. */
@@ -80,7 +87,7 @@ export function chooseLanguage(language: Language): void {
   else location.assign(address);
 }
 
-/** The texts of a language, an empty catalogue for English. */
-export async function translationOf(language: Language): Promise<Translation<typeof en>> {
-  return (await catalogues[folderOf(language)]?.())?.catalogue ?? {};
+/** The texts of a language, none for English: that is what the studio and its packages are written in. */
+export async function translationOf(language: Language): Promise<Texts> {
+  return (await catalogues[folderOf(language)]?.()) ?? { catalogue: {}, sentences: {} };
 }

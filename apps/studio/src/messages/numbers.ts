@@ -7,14 +7,14 @@ export function setNumbersOf(language: string): void {
   point = new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === "decimal")?.value ?? ".";
 }
 
+/** The sign before decimals. */
+export const decimalPoint = (): string => point;
+
 /** A number with so many decimals, for a person: 12.50, or 12,50 in German. Never for a file or a controller. */
 export function fixed(value: number, decimals: number): string {
   const text = value.toFixed(decimals);
   return point === "." ? text : text.replace(".", point);
 }
-
-/** A number with all its digits, for a person. */
-export const plain = (value: number): string => (point === "." ? String(value) : String(value).replace(".", point));
 
 /** A whole number with what the language puts between thousands. */
 export const whole = (value: number): string => Math.round(value).toLocaleString(locale);

@@ -18,3 +18,6 @@ export function pseudo(text: string): string {
   const accented = [...text].map(letter => ACCENTS.get(letter) ?? letter).join("");
   return `⟦${accented}${text.length > 15 ? " " : ""}${longer(text)}⟧`;
 }
+
+/** What is put into a message: a sentence comes from a package and is marked, a name is data and is not. */
+export const pseudoSentence = (text: string): string => (/\p{L} .*[.!?]$/u.test(text) ? pseudo(text) : text);

@@ -13,7 +13,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { download } from "../../ui/download.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
@@ -106,13 +106,14 @@ function Body() {
         {proof && (
           <p className="export-proof" data-good={proof.kind === "proven"}>
             <i className="mark" data-verdict={proof.kind === "proven" ? "ok" : "bad"} aria-hidden />
-            {proof.sentence}
+            {say(proof.sentence)}
           </p>
         )}
         {(problem ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
           <p className="export-proof" role="alert">
             <i className="mark" data-verdict="bad" aria-hidden />
-            {words.export.cannot} {problem ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
+            {words.export.cannot}{" "}
+            {say(problem ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : ""))}
           </p>
         )}
         {emitted?.kind === "emitted" && (

@@ -6,12 +6,13 @@ import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
 import { serviceStore, setServiceTravel } from "../../stores/service.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { whole } from "../../messages/numbers.ts";
 import { clockOf } from "./times.ts";
 import { Trend } from "./Trend.tsx";
 
-const percent = (share: number): string => (100 * share).toFixed(share < 0.1 && share > 0 ? 1 : 0);
+const percent = (share: number): string => fixed(100 * share, share < 0.1 && share > 0 ? 1 : 0);
 
 /**
  * What the recording says of production: cycle times, use, alarms, loads, wear (row T-56). What the source does not
@@ -41,9 +42,9 @@ export default function Figures() {
           cycles.count > 0
             ? words.history.cyclesSay(
                 cycles.count,
-                cycles.median_s.toFixed(2),
-                cycles.fastest_s.toFixed(2),
-                cycles.slowest_s.toFixed(2),
+                fixed(cycles.median_s, 2),
+                fixed(cycles.fastest_s, 2),
+                fixed(cycles.slowest_s, 2),
               )
             : words.history.noCycles
         }
@@ -86,7 +87,7 @@ export default function Figures() {
               >
                 {words.history.alarmTimes(alarm.count)}
               </button>{" "}
-              <span>{alarm.sentence}</span>
+              <span>{say(alarm.sentence)}</span>
             </li>
           ))}
         </ul>
@@ -233,7 +234,7 @@ function Service({ robot, travel }: { readonly robot: Robot; readonly travel: re
 function hintWords(hint: Hint): string {
   switch (hint.kind) {
     case "slower":
-      return words.history.slower(percent(hint.by), hint.from_s.toFixed(2), hint.to_s.toFixed(2));
+      return words.history.slower(percent(hint.by), fixed(hint.from_s, 2), fixed(hint.to_s, 2));
     case "load-rises":
       return words.history.loadRises(hint.joint, percent(hint.by));
     case "temperature-rises":

@@ -3,7 +3,7 @@ import type { CellDocument } from "@twincell/project";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { JointFields } from "./JointFields.tsx";
 import { PoseFields } from "./PoseFields.tsx";
 
@@ -73,7 +73,7 @@ export function RobotInspector({ document }: { document: CellDocument }) {
             <summary>{words.inspector.assumptions}</summary>
             <ul className="notes">
               {robot.assumptions.map(says => (
-                <li key={says}>{says}</li>
+                <li key={says}>{say(says)}</li>
               ))}
             </ul>
           </details>

@@ -3,7 +3,7 @@ import { DRIVER_KINDS, robotsOf } from "@twincell/controllers";
 import { useMemo } from "react";
 import { languagesOf } from "../../stores/languages.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { Picture } from "./Picture.tsx";
 
 /** Everything that is known of a robot, and what is not. */
@@ -65,7 +65,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
         <ul className="notes">
           {Object.entries(robot.sources).map(([what, source]) => (
             <li key={what}>
-              {what}: {source}
+              {what}: {say(source)}
             </li>
           ))}
         </ul>
@@ -75,7 +75,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
           <h4 className="dim small">{words.inspector.assumptions}</h4>
           <ul className="notes small">
             {robot.assumptions.map(says => (
-              <li key={says}>{says}</li>
+              <li key={says}>{say(says)}</li>
             ))}
           </ul>
         </>

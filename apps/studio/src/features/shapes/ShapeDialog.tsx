@@ -7,7 +7,7 @@ import { cardOf, shapeStore, type ShapeCard } from "../../stores/shapes.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { whole } from "../../messages/numbers.ts";
 import "./shapes.css";
 
@@ -72,7 +72,7 @@ function Body({ card, busy }: { card: ShapeCard; busy: boolean }) {
         {unit.sentence !== "" && (
           <p className="small muted" data-certainty={unit.certainty}>
             {unit.certainty === "doubtful" && <b>{words.shapes.doubtful} </b>}
-            {unit.sentence}
+            {say(unit.sentence)}
           </p>
         )}
       </section>
@@ -83,7 +83,7 @@ function Body({ card, busy }: { card: ShapeCard; busy: boolean }) {
         ) : (
           <ul className="shape-fixes small">
             {report.fixes.map(fix => (
-              <li key={fix}>{fix}</li>
+              <li key={fix}>{say(fix)}</li>
             ))}
           </ul>
         )}

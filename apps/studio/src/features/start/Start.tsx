@@ -10,7 +10,7 @@ import { notify } from "../../stores/notices.ts";
 import { keepPresent, openCell, openStored, trashCell } from "../../stores/opening.ts";
 import { shortName } from "../../stores/robot.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { CellCard } from "./CellCard.tsx";
 import { findCells } from "./list.ts";
 import "./start.css";
@@ -136,7 +136,7 @@ function Cells() {
               >
                 <b>{example.name}</b>
                 <span className="muted small">{robotName(example.robot.id)}</span>
-                <span className="small">{sentence}</span>
+                <span className="small">{say(sentence)}</span>
               </button>
             ))}
           </div>

@@ -5,7 +5,8 @@ import { stationLive } from "../../runtime/robot/stations.ts";
 import type { ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 type Action = keyof typeof words.direct.testerActions;
 const ACTIONS = Object.keys(words.direct.testerActions) as Action[];
@@ -33,7 +34,7 @@ export function Tester({
   };
   const say = (outcome: Promise<CommandOutcome>): void => {
     setResult("");
-    void outcome.then(ended => setResult(ended.kind === "done" ? words.direct.moved : ended.why.sentence));
+    void outcome.then(ended => setResult(ended.kind === "done" ? words.direct.moved : say(ended.why.sentence)));
   };
   const test = (): void => {
     switch (action) {
@@ -41,7 +42,7 @@ export function Tester({
         setResult(
           robot
             .jointAngles()
-            .map(q => `${((q * 180) / Math.PI).toFixed(3)}°`)
+            .map(q => `${fixed((q * 180) / Math.PI, 3)}°`)
             .join("  "),
         );
         break;

@@ -3,7 +3,7 @@ import { useStore } from "zustand";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { playStore } from "../../stores/play.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
 
 /** Who commands, in which mode, how late, and the safety state in words. */
@@ -59,7 +59,7 @@ export function ControllerChip({ brief }: { brief: boolean }) {
               <dd>{words.control.safetyStates[control.safety]}</dd>
             </div>
           </dl>
-          {control.message && <p className="chip-message">{control.message}</p>}
+          {control.message && <p className="chip-message">{say(control.message)}</p>}
           {control.safety !== "normal" && (
             <button className="btn" onClick={() => runCommand("run.reset")}>
               {words.control.reset}

@@ -153,7 +153,7 @@ function Leaf({
           />
           <ContextMenu.Item className="menu-item danger" onSelect={() => deleteObject(object.id)}>
             {words.tree.deleteObject}
-            <span className="kbd">Del</span>
+            <span className="kbd">{showKeys("Delete")}</span>
           </ContextMenu.Item>
         </ContextMenu.Content>
       </ContextMenu.Portal>

@@ -7,7 +7,7 @@ import { feedOf, hideCamera, tryAgain } from "../../runtime/video/feeds.ts";
 import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel as Panel } from "../../stores/video.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { ageWords } from "../../messages/phrases.ts";
 import { movable } from "./movable.ts";
 
@@ -79,7 +79,7 @@ export function VideoPanel({
       <Picture id={id} trouble={problem} />
       {problem && (
         <p className="video-trouble" role="status">
-          {problem}{" "}
+          {say(problem)}{" "}
           {source.kind === "here" && problem !== words.video.asking && (
             <button className="btn tight" onClick={() => tryAgain(id)}>
               <RotateCcw />

@@ -5,6 +5,7 @@ import type { controlWords as english } from "../en/control.ts";
 export const controlWords = {
   control: {
     title: "Steuerung",
+    virtualRobot: "Virtueller Roboter",
     commander: "Steuerhoheit",
     mode: "Betriebsart",
     latency: "Latenz",

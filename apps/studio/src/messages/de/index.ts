@@ -6,6 +6,7 @@ import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
+export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";

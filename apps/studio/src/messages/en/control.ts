@@ -2,6 +2,7 @@
 export const controlWords = {
   control: {
     title: "Controller",
+    virtualRobot: "Virtual robot",
     commander: "Commanded by",
     mode: "Mode",
     latency: "Latency",

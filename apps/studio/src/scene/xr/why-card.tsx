@@ -11,6 +11,7 @@ import { solidName } from "../pick/thing-words.ts";
 import { toScene } from "../world-space.ts";
 import { capital } from "../../messages/phrases.ts";
 import { WORDS } from "../words.ts";
+import { say } from "../../messages/index.ts";
 
 /** Capitals are 23 mm high at this distance and nearer, and as large to the eye farther away. */
 const READ_FROM_M = 1.2;
@@ -24,7 +25,7 @@ const eye = new Vector3();
 
 /** Why the tool does not go on, said at the tool and turned to whoever looks. */
 export function WhyCard() {
-  const blocked = useStore(jogStore, state => state.blocked?.sentence);
+  const blocked = useStore(jogStore, ({ blocked: now }) => now && say(now.sentence));
   const contact = useStore(watchStore, state => state.contacts[0]);
   const document = useStore(cellStore, state => state.document);
   const sentence =
