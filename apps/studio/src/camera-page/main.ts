@@ -5,6 +5,7 @@ import "../tokens.css";
 import "./camera-page.css";
 
 const { camera: words, noSafety } = all.video;
+document.title = `${words.which} · ${all.app.name}`;
 const root = document.getElementById("root")!;
 
 /** One element with its words. */
@@ -45,7 +46,7 @@ let sender: Sender | null = null;
 let timer = 0;
 let watchers = 0;
 let line = "";
-function say(): void {
+function showState(): void {
   const video = sender?.video;
   const count = sender?.takeCount() ?? 0;
   state.textContent = !sender
@@ -59,7 +60,7 @@ function stop(): void {
   stage.replaceChildren();
   button.textContent = words.start;
   fields.hidden = false;
-  say();
+  showState();
 }
 
 async function start(): Promise<void> {
@@ -77,7 +78,7 @@ async function start(): Promise<void> {
   sender = startSender(opened.stream, shownAs, key, {
     state(link, sentence) {
       line = link === "open" ? "" : (sentence && say(sentence)) || words.connecting;
-      say();
+      showState();
     },
     watchers(count) {
       watchers = count;
@@ -89,8 +90,8 @@ async function start(): Promise<void> {
   stage.replaceChildren(sender.video);
   button.textContent = words.stop;
   fields.hidden = true;
-  timer = window.setInterval(say, 1000);
-  say();
+  timer = window.setInterval(showState, 1000);
+  showState();
   stayAwake();
 }
 

@@ -16,6 +16,9 @@ export function fixed(value: number, decimals: number): string {
   return point === "." ? text : text.replace(".", point);
 }
 
+/** A number with all its digits, for a person. */
+export const digits = (value: number): string => String(value).replace(".", point);
+
 /** A whole number with what the language puts between thousands. */
 export const whole = (value: number): string => Math.round(value).toLocaleString(locale);
 

@@ -7,7 +7,13 @@ import { patternOf, placesOf, translatorOf } from "./sentences.ts";
 
 const ROOT = fileURLToPath(new URL("../../../../", import.meta.url));
 /** Where sentences come from that reach a screen. */
-const SOURCES = ["packages", "apps/studio/src/runtime", "apps/studio/src/workers", "apps/studio/src/stores"];
+const SOURCES = [
+  "packages",
+  "apps/server/src/stations",
+  "apps/studio/src/runtime",
+  "apps/studio/src/workers",
+  "apps/studio/src/stores",
+];
 
 /** Every sentence of these is translated: what is seen most. */
 const COVERED = [
@@ -71,7 +77,7 @@ function saidIn(file: string): readonly Said[] {
   const found: Said[] = [];
   const visit = (node: ts.Node): void => {
     const text = textOf(node);
-    if (text !== null && /^[\p{Lu}{“].*\p{L}{2,}.* .*[.!?]$/su.test(text) && !isForPrograms(node))
+    if (text !== null && /^[\p{Lu}{“].* .*[.!?]$/su.test(text) && /\p{L}{2,}/u.test(text) && !isForPrograms(node))
       found.push({ file, line: root.getLineAndCharacterOfPosition(node.getStart()).line + 1, text });
     ts.forEachChild(node, visit);
   };
@@ -147,12 +153,16 @@ describe("what packages say", () => {
 test("how much is translated is counted: at least this many of the sentences that packages can say", () => {
   const [german] = LOCALES;
   const keys = Object.keys(german!.sentences);
+  // Almost everything matches a text that is hardly more than its places: such are counted when they are a key.
+  const letters = (text: string): number => text.replace(/\{\}|[^\p{L}]/gu, "").length;
+  const exact = new Set(keys.map(key => key.replace(/\{\w+\}/g, "{}")));
   const translated = ALL.filter(said => {
+    if (exact.has(said.text)) return true;
     const can = sayable(said);
-    return keys.some(key => can.test(key));
+    return letters(said.text) >= 12 && keys.some(key => can.test(key));
   });
   process.stdout.write(`German: ${translated.length} of ${ALL.length} sentences of packages are translated\n`);
-  expect(translated.length).toBeGreaterThanOrEqual(300);
+  expect(translated.length).toBeGreaterThanOrEqual(500);
 });
 
 describe("translating a sentence", () => {

@@ -133,7 +133,7 @@ function Open() {
                 />
                 <Picture robot={each} width={56} height={56} />
                 <span className="robot-words">
-                  <b>{each.name}</b>
+                  <b translate="no">{each.name}</b>
                   <span className="dim small">
                     {words.robots.facts(
                       each.arm.joints.length,

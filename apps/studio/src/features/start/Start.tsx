@@ -131,10 +131,10 @@ function Cells() {
               <button
                 key={id}
                 className="start-example"
-                aria-label={words.cells.openExample(example.name)}
+                aria-label={words.cells.openExample(say(example.name))}
                 onClick={() => openExample(example)}
               >
-                <b>{example.name}</b>
+                <b>{say(example.name)}</b>
                 <span className="muted small">{robotName(example.robot.id)}</span>
                 <span className="small">{say(sentence)}</span>
               </button>

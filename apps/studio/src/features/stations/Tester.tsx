@@ -32,7 +32,7 @@ export function Tester({
     setAngles(robot.jointAngles());
     setEndpoint(endpointOf(id));
   };
-  const say = (outcome: Promise<CommandOutcome>): void => {
+  const tell = (outcome: Promise<CommandOutcome>): void => {
     setResult("");
     void outcome.then(ended => setResult(ended.kind === "done" ? words.direct.moved : say(ended.why.sentence)));
   };
@@ -47,14 +47,14 @@ export function Tester({
         );
         break;
       case "move-joint":
-        say(robot.moveJoint(joint, angles_rad[joint - 1] ?? 0));
+        tell(robot.moveJoint(joint, angles_rad[joint - 1] ?? 0));
         break;
       case "move-joints":
-        say(robot.moveJoints(angles_rad));
+        tell(robot.moveJoints(angles_rad));
         break;
       case "move-endpoint": {
         const [x = 0, y = 0, z = 0, rx = 0, ry = 0, rz = 0] = endpoint;
-        say(robot.moveToPose({ position: [x, y, z], quaternion: fromFixedXyz(rx, ry, rz) }));
+        tell(robot.moveToPose({ position: [x, y, z], quaternion: fromFixedXyz(rx, ry, rz) }));
       }
     }
   };

@@ -131,7 +131,9 @@ function Leaf({
       <span className="glyph" aria-hidden>
         {glyph}
       </span>
-      <span className="name">{children}</span>
+      <span className="name" translate="no">
+        {children}
+      </span>
       {extra}
     </button>
   );

@@ -250,6 +250,17 @@ export const shellWords = {
     busy: "Die Sprache kann jetzt nicht gewechselt werden: Die Seite wird dafür neu geladen.",
     busyHint: "Erst das Programm anhalten und die Steuerungen trennen.",
   },
+  keys: {
+    Control: "Strg",
+    Shift: "Umschalt",
+    Alt: "Alt",
+    Space: "Leertaste",
+    Delete: "Entf",
+    Escape: "Esc",
+    Enter: "Eingabe",
+    Home: "Pos1",
+    Pause: "Pause",
+  },
   sheet: {
     label: "Werkzeuge",
     jog: "Verfahren",

@@ -226,5 +226,16 @@ export const shellWords = {
     busy: "The language cannot be changed now: the page is loaded again for it.",
     busyHint: "Stop the program and disconnect the controllers first.",
   },
+  keys: {
+    Control: "Ctrl",
+    Shift: "Shift",
+    Alt: "Alt",
+    Space: "Space",
+    Delete: "Del",
+    Escape: "Esc",
+    Enter: "Enter",
+    Home: "Home",
+    Pause: "Pause",
+  },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

@@ -128,6 +128,19 @@ export const saidByReaders: Sentences = {
   "A camera looks at five points of a part and is told when to measure.":
     "Eine Kamera sieht fünf Punkte eines Teils an und erfährt, wann sie messen soll.",
 
+  "Edge trace": "Kanten abfahren",
+  "Traced carton": "Abgefahrener Karton",
+  "Conveyor and pallet": "Förderer und Palette",
+  "Pick and place": "Greifen und Ablegen",
+  "Pallet of nine": "Palette mit neun Plätzen",
+  "Twin of a GP8": "Zwilling eines GP8",
+  "A line out of reach": "Eine Linie außer Reichweite",
+  "Machine tending": "Maschinenbeschickung",
+  Deburring: "Entgraten",
+  "Welding two seams": "Zwei Nähte schweißen",
+  "Gluing a cover": "Deckel kleben",
+  "Inspection at five points": "Prüfen an fünf Punkten",
+
   // Workers
   "The collision check could not run: {why}.": "Die Kollisionsprüfung konnte nicht laufen: {why}.",
   "The collision check stopped: {why}.": "Die Kollisionsprüfung brach ab: {why}.",
