@@ -124,7 +124,7 @@ function Body() {
             ) : (
               <ul className="notes small">
                 {emitted.warnings.map(says => (
-                  <li key={says}>{says}</li>
+                  <li key={says}>{say(says)}</li>
                 ))}
               </ul>
             )}
@@ -136,7 +136,7 @@ function Body() {
             <ul className="notes">
               {dialect.cannot.map(({ what, because }) => (
                 <li key={what}>
-                  <b>{what}</b>: {because}
+                  <b>{say(what)}</b>: {say(because)}
                 </li>
               ))}
             </ul>

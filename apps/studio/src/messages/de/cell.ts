@@ -22,6 +22,7 @@ export const cellWords = {
     "steps(n: number)": "{n, plural, one {# Schritt} other {# Schritte}}",
     up: "Nach oben",
     down: "Nach unten",
+    sortable: "verschiebbar",
     reorderHint: "Alt mit ↑ oder ↓ verschiebt.",
     "moved(name, place: number, of: number)": "{name} ist jetzt Schritt {place} von {of}.",
     goTo: "Hinfahren",

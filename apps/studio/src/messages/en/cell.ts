@@ -19,6 +19,7 @@ export const cellWords = {
     "steps(n: number)": "{n, plural, one {# step} other {# steps}}",
     up: "Move up",
     down: "Move down",
+    sortable: "can be moved",
     reorderHint: "Alt with ↑ or ↓ moves it.",
     "moved(name, place: number, of: number)": "{name} is now step {place} of {of}.",
     goTo: "Go there",
