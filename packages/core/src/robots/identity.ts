@@ -1,6 +1,6 @@
 import type { Robot } from "../model/robot.ts";
 import { catalogueRobots } from "./catalogue/index.ts";
-import { LIBRARY, robotById } from "./library/index.ts";
+import { LIBRARY, publishedRobot } from "./library/index.ts";
 import { jointText } from "../model/slide.ts";
 import { angleBetween } from "../spatial/quaternion.ts";
 import { degrees, millimetres } from "../spatial/units.ts";
@@ -102,7 +102,7 @@ const judged = new WeakMap<Robot, string>();
  * of numbers in one sentence. Undefined where nothing contradicts.
  */
 export function falseIdentity(robot: Robot): string | undefined {
-  const known = robotById(robot.id);
+  const known = publishedRobot(robot.id);
   if (known === robot) return undefined;
   let said = judged.get(robot);
   if (said === undefined) {

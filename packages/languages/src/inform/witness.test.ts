@@ -15,6 +15,7 @@ import {
   type Pallet,
   type Pose,
   type Program,
+  type Robot,
   type Signals,
   type Step,
 } from "@twincell/core";

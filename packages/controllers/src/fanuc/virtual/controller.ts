@@ -1,4 +1,18 @@
-import { compose, flangePose, inverse, toFanucWpr, type CommandOutcome, type Interpreted, type MoveStep, type Pose, type Robot, type Scheduler, sectionForDriver, axesOfJoints, type AxisCounting } from "@twincell/core";
+import {
+  compose,
+  flangePose,
+  inverse,
+  toFanucWpr,
+  type CommandOutcome,
+  type Interpreted,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type Scheduler,
+  sectionForDriver,
+  axesOfJoints,
+  type AxisCounting,
+} from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
