@@ -13,7 +13,9 @@ import {
   toMatrix,
   withBranches,
   type Dialect,
+  type Executed,
   type MoveStep,
+  type Pose,
   type Program,
   type Robot,
 } from "@twincell/core";
@@ -53,7 +55,7 @@ const move = (id: string, path: MoveStep["path"], target: MoveStep["target"]): M
 function lap(robot: Robot): Program {
   const { home_rad } = robot;
   const turned = home_rad.map((q, i) => q + [0.3, 0.12, -0.1, 0.2, -0.15, 0.4][i]!);
-  const at = flangePose(robot.arm, turned);
+  const at = flangePose(robot.arm, turned) as Pose as Pose<"base", "tcp">;
   const near = (dz: number) => ({
     pose: compose(pose<"frame", "base">([0, 0, dz]), at),
     frame: "world",
@@ -113,6 +115,14 @@ describe.each([
   });
 });
 
+/** Every move of a run. */
+function movesOf(run: Iterator<Executed, void>): MoveStep[] {
+  const moves: MoveStep[] = [];
+  for (let next = run.next(); next.done !== true; next = run.next())
+    if (next.value.step?.type === "move") moves.push(next.value.step);
+  return moves;
+}
+
 /** One joint motion to axis values as the controller's own text says it. */
 const TEXTS: Readonly<Record<string, (a: readonly number[]) => string>> = {
   krl: a => `DEF GOLDEN()\nPTP {A1 ${a[0]!},A2 ${a[1]!},A3 ${a[2]!},A4 ${a[3]!},A5 ${a[4]!},A6 ${a[5]!}}\nEND\n`,
@@ -140,7 +150,7 @@ describe("axis values in texts, by the makers' drawings (fixtures/vendor/axes.py
         const interpreted = dialectById(language)!.interpret(text(axes_deg), robot);
         expect(interpreted.kind === "ready" ? "" : interpreted.faults[0]!.sentence).toBe("");
         if (interpreted.kind !== "ready") continue;
-        const [step] = [...interpreted.run()].flatMap(({ step: each }) => (each?.type === "move" ? [each] : []));
+        const [step] = movesOf(interpreted.run());
         const target = step!.target;
         if (!("q" in target)) throw new Error("The text moves to joint angles.");
         const { position, quaternion } = compose(inverse(robot.baseFromVendorWorld), flangePose(robot.arm, target.q));
@@ -162,7 +172,7 @@ describe("axis values in texts, by the makers' drawings (fixtures/vendor/axes.py
       // The joint angles of this posture, found by where the flange is and not by the section.
       const interpreted = dialect.interpret(TEXTS[language]!(axes_deg), robot);
       if (interpreted.kind !== "ready") throw new Error(interpreted.faults[0]!.sentence);
-      const [step] = [...interpreted.run()].flatMap(({ step: each }) => (each?.type === "move" ? [each] : []));
+      const [step] = movesOf(interpreted.run());
       const target = step!.target as { readonly q: readonly number[] };
       const flange = compose(inverse(robot.baseFromVendorWorld), flangePose(robot.arm, target.q)).position;
       flange.forEach((value, i) => expect(millimetres(value)).toBeCloseTo(flange_mm[i]!, 3));
