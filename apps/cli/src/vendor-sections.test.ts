@@ -178,6 +178,27 @@ test("a vendor section beside a URDF makes it a robot of that make; on another a
   );
 }, 60_000);
 
+test("docs/add-a-robot.md, followed: the section that it writes makes its arm one that speaks RAPID", async () => {
+  const guide = readFileSync(join(root, "docs/add-a-robot.md"), "utf8");
+  const vendor: unknown = JSON.parse(/^```json vendor\n([\s\S]*?)^```$/m.exec(guide)![1]!);
+  const arm = JSON.parse(readFileSync(join(root, "examples/robots/small-arm.json"), "utf8")) as object;
+  const path = join(folder, "small-arm.json");
+  writeFileSync(path, JSON.stringify({ ...arm, vendor }));
+  const answer = parseRobot({ ...arm, vendor });
+  const robot = answer.kind === "robot" ? answer.robot : undefined;
+  const program = join(folder, "small-program.json");
+  writeFileSync(program, JSON.stringify(lap(robot!)));
+  const written = await twincell("post", program, "--to", "rapid", "--robot", path, "-o", join(folder, "small"));
+  expect(written.err).toBe("");
+  expect(JSON.parse(written.out)).toMatchObject({ dialect: "rapid", proof: [{ file: expect.any(String) as string }] });
+  const without = await twincell(
+    ...["post", program, "--to", "rapid", "--robot", "examples/robots/small-arm.json"],
+    ...["-o", join(folder, "small")],
+  );
+  expect(without.code).toBe(1);
+  expect(without.err).toContain("The controller of the Small arm does not speak RAPID.");
+}, 60_000);
+
 test("a language or a driver that there is not is named, and so is a section without a posture", async () => {
   const data = JSON.parse(readFileSync(join(root, fileOf("ur5e")), "utf8")) as { vendor: Record<string, unknown> };
   const path = join(folder, "strange.json");

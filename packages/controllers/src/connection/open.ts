@@ -117,7 +117,7 @@ export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
 
-/** Why a robot does not stand on a controller of that kind, by its vendor section and its kinematics; null where it does. */
+/** Why a robot does not stand on a controller of that kind, by its vendor section and kinematics; null where it does. */
 function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
   const wrong = falseIdentity(robot);
   if (wrong !== undefined)

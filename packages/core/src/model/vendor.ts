@@ -52,8 +52,8 @@ export interface AxisCoupling {
 }
 
 /**
- * Encoder pulses per radian of each axis as shown [1/rad]. They stand in the parameter file of one controller; nobody can
- * work them out from a name.
+ * Encoder pulses per radian of each axis as shown [1/rad]. They stand in the parameter file of one controller; nobody
+ * can work them out from a name.
  */
 export interface AxisPulses {
   readonly perRadian: readonly number[];

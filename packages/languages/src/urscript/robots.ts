@@ -1,9 +1,9 @@
 import { countsAsFile, sectionForLanguage, type Robot } from "@twincell/core";
 
 /**
- * Joint speed at which all joints of an arm can turn [rad/s]: full speed of a joint move.  Undefined for a robot whose
- * controllers do not run URScript, or count its joints otherwise than its file does: URScript has no zero and no sign to
- * set.
+ * Joint speed at which all joints of an arm can turn [rad/s]: full speed of a joint move. Undefined for a robot whose
+ * controllers do not run URScript, or count its joints otherwise than its file does: URScript has no zero and no sign
+ * to set.
  */
 export function fullJointSpeed(robot: Robot): number | undefined {
   const section = sectionForLanguage(robot, "urscript");

@@ -15,8 +15,8 @@ import {
 } from "@twincell/core";
 
 /**
- * How a controller counts the axes S, L, U, R, B, T of its robot: pulses = round(pulsesPerDegree · shown_deg), by what the
- * vendor section says of signs, zeros and couplings. Data of one robot, from its parameter file (ALL.PRM); nobody can
+ * How a controller counts the axes S, L, U, R, B, T of its robot: pulses = round(pulsesPerDegree · shown_deg), by what
+ * the vendor section says of signs, zeros and couplings. Data of one robot, from its parameter file (ALL.PRM); nobody can
  * work it out from a name.
  */
 export interface PulseScale {
@@ -44,7 +44,7 @@ export function exampleScale(robot: Robot): PulseScale {
   };
 }
 
-/** The scale of a controller whose pulses the section of its robot knows; undefined where it does not, or made them up. */
+/** The scale of a controller whose pulses the section of its robot knows; undefined where none, or made up. */
 export function ownScale(robot: Robot): PulseScale | undefined {
   const scale = exampleScale(robot);
   return scale.source === EXAMPLE ? undefined : scale;

@@ -36,8 +36,8 @@ export function xyzwpr({ position, quaternion }: Pose): readonly [string, string
 }
 
 /**
- * Joint angles as the pendant shows them. An axis that is shown with another counts from what is written of that one, so
- * that the arm's own angle is as fine as the others.
+ * Joint angles as the pendant shows them. An axis that is shown with another counts from what is written of that one,
+ * so that the arm's own angle is as fine as the others.
  */
 export function pendantJoints(q_rad: ArrayLike<number>, section: VendorSection): readonly string[] {
   const alone = section.axes.map(({ sign, zero_deg }, i) => sign * degrees(q_rad[i]!) + zero_deg);
