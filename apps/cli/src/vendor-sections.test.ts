@@ -5,7 +5,7 @@
 import { execFile, spawn, type ChildProcess } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import {
@@ -14,11 +14,13 @@ import {
   flangePose,
   parseRobot,
   pose,
+  type CommandOutcome,
   type MoveStep,
   type Pose,
   type Program,
   type Robot,
 } from "@twincell/core";
+import { dialectById, runnableFile } from "@twincell/languages";
 import { afterAll, describe, expect, test } from "vitest";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
@@ -26,6 +28,7 @@ const folder = mkdtempSync(join(tmpdir(), "twincell-vendor-"));
 const children: ChildProcess[] = [];
 afterAll(async () => {
   for (const child of children) {
+    if (child.exitCode !== null || child.signalCode !== null) continue;
     const ended = new Promise(resolve => child.once("exit", resolve));
     child.kill("SIGTERM");
     await ended;
@@ -85,7 +88,7 @@ const ROBOTS = [
   { name: "tx2-90l", language: "val3", driver: "staubli", host: "127.0.0.36" },
 ] as const;
 
-describe.each(ROBOTS)("$name from a file, by its vendor section", ({ name, language, driver, host }) => {
+describe.each(ROBOTS)("$name from a file, by its vendor section", ({ name, language }) => {
   const robot = robotOf(name);
   const chosen = ["--robot", fileOf(name)];
 
@@ -115,31 +118,47 @@ describe.each(ROBOTS)("$name from a file, by its vendor section", ({ name, langu
     expect(furthest[0]!).toBeCloseTo(robot.home_rad[0]! + 0.3, 2);
     moments.at(-1)!.q.forEach((q, i) => expect(q).toBeCloseTo(robot.home_rad[i]!, 3));
 
-    if (texts.length > 1 && language !== "krl") return;
-    const parsed = await twincell("parse", texts[0]!, ...chosen, "--dialect", language);
+    const parts = texts.map(file => ({ name: basename(file), text: readFileSync(file, "utf8"), lines: [] }));
+    const whole = join(folder, `${name}-${basename(texts[0]!)}`);
+    writeFileSync(whole, runnableFile(dialectById(language)!, parts)!.text);
+    const parsed = await twincell("parse", whole, ...chosen, "--dialect", language);
+    expect(parsed.err).toBe("");
     expect(parsed.code).toBe(0);
     const { steps } = JSON.parse(parsed.out) as Program;
     expect(steps.filter(({ type }) => type === "move").length).toBeGreaterThanOrEqual(3);
   }, 120_000);
-
-  test(`virtual ${driver} is that robot, and move brings it to joint angles over its own protocol`, async () => {
-    const child = spawn(
-      process.execPath,
-      ["apps/cli/src/main.ts", "virtual", driver, ...chosen, "--host", host, "--json"],
-      { cwd: root, stdio: ["pipe", "pipe", "inherit"] },
-    );
-    children.push(child);
-    const lines = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
-    expect(JSON.parse((await lines.next()).value as string)).toMatchObject({ brand: driver, robot: robot.id });
-    const at = ["--at", host, "--driver", driver, ...chosen];
-    const wanted = turned(robot, 0.5);
-    const moved = await twincell("move", ...at, "--joints", wanted.join(","));
-    expect(JSON.parse(moved.out)).toEqual({ kind: "done" });
-    const stood = await twincell("watch", ...at, "--only", "sample", "--count", "1");
-    const { q_rad } = JSON.parse(stood.out.trim().split("\n")[0]!) as { q_rad: number[] };
-    q_rad.forEach((q, i) => expect(q).toBeCloseTo(wanted[i]!, 3));
-  }, 180_000);
 });
+
+// All drivers are held to such files on virtual time in packages/controllers; here three of them as processes.
+describe.each(ROBOTS.filter(({ name }) => ["ur5e", "irb2400", "gp12"].includes(name)))(
+  "$name from a file, on a controller of its own",
+  ({ name, driver, host }) => {
+    const robot = robotOf(name);
+    const chosen = ["--robot", fileOf(name)];
+    test(`virtual ${driver} is that robot, and move brings it to joint angles over its own protocol`, async () => {
+      const child = spawn(
+        process.execPath,
+        ["apps/cli/src/main.ts", "virtual", driver, ...chosen, "--host", host, "--json"],
+        { cwd: root, stdio: ["pipe", "pipe", "inherit"] },
+      );
+      children.push(child);
+      const lines = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
+      expect(JSON.parse((await lines.next()).value as string)).toMatchObject({ brand: driver, robot: robot.id });
+      const at = ["--at", host, "--driver", driver, ...chosen];
+      const wanted = turned(robot, 0.5);
+      const command = async (): Promise<CommandOutcome> =>
+        JSON.parse((await twincell("move", ...at, "--joints", wanted.join(","), "--confirm")).out) as CommandOutcome;
+      let outcome = await command();
+      // On a machine that is too busy for the link's watch the guard says so: the person confirms and commands again.
+      while (outcome.kind !== "done" && outcome.why.code.startsWith("guard.link-")) outcome = await command();
+      expect(outcome).toEqual({ kind: "done" });
+      const stood = await twincell("watch", ...at, "--samples", "1", "--only", "sample");
+      const { q_rad } = JSON.parse(stood.out) as { q_rad: number[] };
+      q_rad.forEach((q, i) => expect(q).toBeCloseTo(wanted[i]!, 3));
+      child.kill("SIGTERM");
+    }, 180_000);
+  },
+);
 
 test("a vendor section beside a URDF makes it a robot of that make; on another arm it is refused with both flanges", async () => {
   const urdf = (upper: number): string => {
@@ -209,4 +228,4 @@ test("a language or a driver that there is not is named, and so is a section wit
   expect(await fk({ languages: ["ur-script"] })).toMatch(/there is no language "ur-script"\. There are: v-plus, krl/);
   expect(await fk({ drivers: ["universal"] })).toMatch(/there is no driver "universal"\. There are: ur, kuka/);
   expect(await fk({ postures: [] })).toMatch(/vendor\.postures: A vendor section has at least one posture/);
-}, 60_000);
+}, 120_000);
