@@ -24,6 +24,8 @@ import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
+import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
+import { robotStates } from "./standards/robot-states.ts";
 
 export interface ServeOptions {
   /** Folder of the built studio. */
@@ -44,12 +46,16 @@ export interface ServeOptions {
   readonly connections?: string;
   /** What the studio is told it speaks with. */
   readonly version?: string;
+  /** Standards of plants that are spoken besides the API. */
+  readonly standards?: StandardsOptions;
 }
 export interface Served {
   readonly url: string;
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** Where each standard that was asked for is spoken. */
+  readonly standards: readonly string[];
   close(): Promise<void>;
 }
 
@@ -64,7 +70,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
   const version = options.version ?? "";
-  const parts: { robots?: ApiRobots } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -77,9 +83,10 @@ export async function serve(options: ServeOptions): Promise<Served> {
   };
   const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
   const auditing = audit && auditHost(stations, audit, say);
+  const tokens = tokenReader(options.data, () => Date.now(), say);
   const gate = createGate({
     access,
-    tokens: tokenReader(options.data, () => Date.now(), say),
+    tokens,
     audit,
     scheduler: nodeScheduler,
     onTrouble: say,
@@ -102,13 +109,15 @@ export async function serve(options: ServeOptions): Promise<Served> {
     counts,
     enter: (request, route) => gate.enter(request, route.access),
     audit,
+    observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
   const listener = studioListener(staticFiles(options.studio), hosts, access, api);
-  const server = options.lan
-    ? createHttps({ ...(await certificate(options.data, addresses)) }, listener)
-    : createHttp(listener);
+  const own = options.lan ? await certificate(options.data, addresses) : null;
+  const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
+  const states = robotStates(stations, () => Date.now(), say);
   const end = (): void => {
     ready = false;
+    states.close();
     robots.close();
     stations.close();
     programs.close();
@@ -116,12 +125,32 @@ export async function serve(options: ServeOptions): Promise<Served> {
     auditing?.();
     audit?.close();
   };
+  const host = options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1");
+  let standards: StartedStandards;
   try {
     await new Promise<void>((resolve, reject) => {
       server.once("error", reject);
-      server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
+      server.listen(options.port, host, resolve);
     });
+    standards = parts.standards = await startStandards(
+      {
+        states,
+        robots,
+        scheduler: nodeScheduler,
+        now_ms: () => Date.now(),
+        version,
+        host,
+        hosts,
+        certificate: own,
+        enter: gate.enter,
+        tokens,
+        data: options.data,
+        say,
+      },
+      options.standards ?? {},
+    );
   } catch (problem) {
+    server.close();
     end();
     throw problem;
   }
@@ -153,16 +182,19 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
-    close: () =>
-      new Promise(resolve => {
-        restoring?.close();
-        recorder?.close();
+    standards: standards.addresses,
+    close: async () => {
+      restoring?.close();
+      recorder?.close();
+      await standards.close();
+      await new Promise<void>(resolve => {
         end();
         socket.close();
         server.closeAllConnections();
         server.close(() => {
           resolve();
         });
-      }),
+      });
+    },
   };
 }

@@ -4,6 +4,7 @@ import { spawn } from "node:child_process";
 import { serve, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
 import { given } from "../io/arguments.ts";
+import { checkPort, STANDARD_OPTIONS, standardsOf } from "../io/standards.ts";
 import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
@@ -14,6 +15,8 @@ export const serveCommand: Command = {
   name: "serve",
   summary: "serve the studio on this machine, or on the local network with --lan",
   usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--training] [--open]
+               [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
+               [--webhooks FILE] [--otlp URL]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
@@ -21,6 +24,12 @@ export const serveCommand: Command = {
   --robots A,B the only addresses of real controllers; without it every address, with --lan none but this machine
   --connections FILE  robots to open and connect when it starts; without it connections.json of --data, where there is one. Written by
                twincell connect --save: {"format":"twincell.connections","version":1,"robots":[{"id","driver","model","address":{"host","ports"},"cell","watch"}]}
+  --opcua P, --rosbridge P, --foxglove P, --modbus P
+               also speaks OPC UA (robotics companion model), rosbridge v2, Foxglove WebSocket, Modbus TCP on that port (docs/plant.md); 0 takes a free one
+  --modbus-lines FILE  which lines are at which Modbus address: {"format":"twincell.modbus","version":1,"robots":{"arm":["in_1",…]}}
+  --sparkplug URL  tells an MQTT broker (mqtt://host:1883) of every robot as Sparkplug B; --sparkplug-node GROUP/NODE (default plant/twincell)
+  --webhooks FILE  addresses that are told what happens: {"format":"twincell.webhooks","version":1,"hooks":[{"url","events","robot","secret"}]}
+  --otlp URL   sends traces to an OpenTelemetry collector (http://host:4318)
   --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
@@ -32,11 +41,11 @@ export const serveCommand: Command = {
       training: { type: "boolean" },
       connections: { type: "string" },
       open: { type: "boolean" },
+      ...STANDARD_OPTIONS,
     });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
     const port = options.number("port");
-    if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port <= 65535))
-      throw new UseFault(`--port wants a whole number from 0 to 65535, not ${port}.`);
+    checkPort("port", port);
     if (!existsSync(`${studio}/index.html`))
       throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
 
@@ -57,6 +66,7 @@ export const serveCommand: Command = {
         ...(robots === undefined ? {} : { robots }),
         ...(connections === undefined ? {} : { connections }),
         ...(data === undefined ? {} : { data }),
+        standards: standardsOf(options),
       },
       port === undefined,
     );
@@ -67,6 +77,7 @@ export const serveCommand: Command = {
       process.stdout.write(
         `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
       );
+    for (const address of served.standards) process.stdout.write(`${address}\n`);
     process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
     if (options.flag("open")) openBrowser(served.url);
 

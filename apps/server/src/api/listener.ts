@@ -19,13 +19,16 @@ export interface ApiOptions {
   readonly counts: Map<number, number>;
   /** Where changes of documents are written down; acts at robots are by their host. */
   readonly audit: AuditLog | null;
+  /** Told of each answer, by the name of its route: where requests are traced. */
+  readonly observe?: (route: string, method: string, status: number, began_ms: number) => void;
 }
 const isLoopback = (address = ""): boolean => address === "::1" || /^(::ffff:)?127\./.test(address);
 
 /** Answers one request at an address of the API. */
-export function apiListener({ handlers, headers, enter, counts, audit }: ApiOptions) {
+export function apiListener({ handlers, headers, enter, counts, audit, observe }: ApiOptions) {
   return async function answer(request: IncomingMessage, response: ServerResponse, path: string): Promise<void> {
     const gone = new Set<() => void>();
+    const began_ms = Date.now();
     response.on("close", () => {
       if (!response.writableFinished) for (const listen of gone) listen();
     });
@@ -33,6 +36,11 @@ export function apiListener({ handlers, headers, enter, counts, audit }: ApiOpti
     gone.clear();
     const status = found.kind === "json" ? (found.status ?? 200) : 200;
     counts.set(Math.floor(status / 100), (counts.get(Math.floor(status / 100)) ?? 0) + 1);
+    const method = request.method ?? "GET";
+    if (observe) {
+      const route = findRoute(method, path);
+      observe(route.kind === "found" ? route.id : "none", method, status, began_ms);
+    }
     await write(response, found, { ...headers, "cache-control": "no-store", ...more }, request.method === "HEAD");
   };
 
