@@ -2,6 +2,7 @@ import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
+import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
 import { apiHandlers } from "./api/handlers.ts";
@@ -19,9 +20,11 @@ import { recordServer } from "./stations/record-host.ts";
 import { openRoutes } from "./sockets/doors.ts";
 import { connectionRoute } from "./stations/socket.ts";
 import { videoRoute } from "./video/door.ts";
+import { hasAccounts, openAccounts, type Account, type Accounts } from "./people/accounts.ts";
 import { auditHost } from "./people/audit-host.ts";
 import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
+import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
 import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
@@ -46,6 +49,8 @@ export interface ServeOptions {
   readonly connections?: string;
   /** What the studio is told it speaks with. */
   readonly version?: string;
+  /** People sign in by name; always so where the data folder has accounts. */
+  readonly accounts?: boolean;
   /** Standards of plants that are spoken besides the API. */
   readonly standards?: StandardsOptions;
 }
@@ -54,6 +59,8 @@ export interface Served {
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** Where the first admin chooses a name and a password; null when there is one, or nobody signs in by name. */
+  readonly setUp: string | null;
   /** Where each standard that was asked for is spoken. */
   readonly standards: readonly string[];
   close(): Promise<void>;
@@ -64,7 +71,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
   // A file that cannot be read is said before anything listens.
   if (options.connections !== undefined) readConnections(options.connections);
   const addresses = options.lan ? lanAddresses() : [];
-  const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
+  const accounts = peopleOf(options);
+  const access = options.lan && !accounts ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
@@ -84,9 +92,15 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
   const auditing = audit && auditHost(stations, audit, say);
   const tokens = tokenReader(options.data, () => Date.now(), say);
+  const sessions = createSessions(() => nodeScheduler.now_s());
+  const signedIn = (cookies: string | undefined): Account | null => {
+    const name = sessions.nameOf(cookies);
+    return (name === null ? undefined : accounts?.find(name)) ?? null;
+  };
   const gate = createGate({
     access,
     tokens,
+    people: accounts && signedIn,
     audit,
     scheduler: nodeScheduler,
     onTrouble: say,
@@ -104,10 +118,17 @@ export async function serve(options: ServeOptions): Promise<Served> {
       data: options.data,
       requests: { byClass: counts },
       ready: () => ready,
+      people: accounts && {
+        accounts,
+        sessions,
+        now_s: () => nodeScheduler.now_s(),
+        audit: (who, action, detail, done) =>
+          audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" }),
+      },
     }),
     headers: HEADERS,
     counts,
-    enter: (request, route) => gate.enter(request, route.access),
+    enter: (request, route, subject) => gate.enter(request, route.access, subject),
     audit,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
@@ -171,30 +192,50 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations, gate.nameOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    [connectionRoute(stations, gate.nameOf, gate.roleOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
       stays: gate.stays,
       scheduler: nodeScheduler,
     },
   );
+  const close = async (): Promise<void> => {
+    // Robots first: what still moves is stopped before anything that could be waited for.
+    robots.stop("server", undefined, false);
+    restoring?.close();
+    recorder?.close();
+    await standards.close();
+    await new Promise<void>(resolve => {
+      end();
+      socket.close();
+      server.closeAllConnections();
+      server.close(() => {
+        resolve();
+      });
+    });
+  };
+  let closing: Promise<void> | null = null;
+  const first = accounts?.all.length === 0 ? accounts.invite(null, "admin") : null;
   return {
+    setUp:
+      first === null
+        ? null
+        : `${scheme}://${options.lan ? (addresses[0] ?? "localhost") : "localhost"}:${port}/?invitation=${first}`,
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
     standards: standards.addresses,
-    close: async () => {
-      restoring?.close();
-      recorder?.close();
-      await standards.close();
-      await new Promise<void>(resolve => {
-        end();
-        socket.close();
-        server.closeAllConnections();
-        server.close(() => {
-          resolve();
-        });
-      });
-    },
+    close: () => (closing ??= close()),
   };
+}
+
+/** The accounts of the data folder where people sign in by name, or null. */
+function peopleOf({ accounts, data }: ServeOptions): Accounts | null {
+  if (accounts === true && data === undefined)
+    throw new PlainFault(
+      "people.no-folder",
+      "Accounts are kept in a data folder.",
+      "Start the server with --data DIR.",
+    );
+  return data !== undefined && (accounts === true || hasAccounts(data)) ? openAccounts(data, () => Date.now()) : null;
 }

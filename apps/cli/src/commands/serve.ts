@@ -14,7 +14,7 @@ const studio = studioFolder();
 export const serveCommand: Command = {
   name: "serve",
   summary: "serve the studio on this machine, or on the local network with --lan",
-  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--training] [--open]
+  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--accounts] [--training] [--open]
                [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
                [--webhooks FILE] [--otlp URL]
 
@@ -30,6 +30,7 @@ export const serveCommand: Command = {
   --sparkplug URL  tells an MQTT broker (mqtt://host:1883) of every robot as Sparkplug B; --sparkplug-node GROUP/NODE (default plant/twincell)
   --webhooks FILE  addresses that are told what happens: {"format":"twincell.webhooks","version":1,"hooks":[{"url","events","robot","secret"}]}
   --otlp URL   sends traces to an OpenTelemetry collector (http://host:4318)
+  --accounts   people sign in by name (needs --data); the first start prints a link that works once and makes the first admin
   --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
@@ -38,6 +39,7 @@ export const serveCommand: Command = {
       data: { type: "string" },
       lan: { type: "boolean" },
       robots: { type: "string" },
+      accounts: { type: "boolean" },
       training: { type: "boolean" },
       connections: { type: "string" },
       open: { type: "boolean" },
@@ -62,6 +64,7 @@ export const serveCommand: Command = {
         studio,
         port: port ?? DEFAULT_PORT,
         lan: options.flag("lan"),
+        accounts: options.flag("accounts"),
         training: options.flag("training"),
         ...(robots === undefined ? {} : { robots }),
         ...(connections === undefined ? {} : { connections }),
@@ -77,6 +80,7 @@ export const serveCommand: Command = {
       process.stdout.write(
         `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
       );
+    if (served.setUp !== null) process.stdout.write(`Set up the first admin, once: ${served.setUp}\n`);
     for (const address of served.standards) process.stdout.write(`${address}\n`);
     process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
     if (options.flag("open")) openBrowser(served.url);

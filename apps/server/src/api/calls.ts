@@ -13,11 +13,21 @@ export interface Call<Id extends ApiRouteId> {
   readonly named: boolean;
   /** Whether it came from another machine. */
   readonly remote: boolean;
+  readonly cookies: string | undefined;
+  /** Address of whoever asks. */
+  readonly address: string | undefined;
+  /** As the browser names this server: scheme, host and port. */
+  readonly origin: string;
   /** Told when whoever asked is gone before the answer. */
   onGone(listen: () => void): void;
 }
 export type Answer =
-  | { readonly kind: "json"; readonly value: unknown; readonly status?: number }
+  | {
+      readonly kind: "json";
+      readonly value: unknown;
+      readonly status?: number;
+      readonly headers?: Readonly<Record<string, string>>;
+    }
   | { readonly kind: "text"; readonly text: string; readonly type: string }
   | {
       readonly kind: "bytes";

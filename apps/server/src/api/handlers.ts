@@ -19,6 +19,7 @@ import { json, outcomeAnswer, refusal, type Answer, type Call } from "./calls.ts
 import { documentFolder, type DocumentFolder } from "./documents.ts";
 import type { Judge, JudgeRequest } from "./judge.ts";
 import { metricsText, type RequestCounts } from "./metrics.ts";
+import { peopleHandlers, withoutPeople, type PeopleParts } from "../people/people-host.ts";
 import { apiPage } from "./page.ts";
 import type { ApiRobots } from "./robots.ts";
 
@@ -32,6 +33,8 @@ export interface ApiParts {
   readonly requests: RequestCounts;
   /** Whether requests are still taken. */
   readonly ready: () => boolean;
+  /** Null where nobody signs in by name. */
+  readonly people: PeopleParts | null;
 }
 export type Handlers = { readonly [Id in ApiRouteId]: (call: Call<Id>) => Answer | Promise<Answer> };
 
@@ -86,6 +89,7 @@ export function apiHandlers(parts: ApiParts): Handlers {
         drivers: ALL_DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports })),
       }),
     languages: () => json({ languages: DIALECTS.map(({ id, name, brand }) => ({ id, name, vendor: brand })) }),
+    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople()),
     ...robotHandlers(parts),
     ...judgeHandlers(parts.judge),
     ...documentHandlers(documentFolder(parts.data, "programs"), documentFolder(parts.data, "cells")),

@@ -15,7 +15,7 @@ export type Entered =
 export interface ApiOptions {
   readonly handlers: Handlers;
   readonly headers: Readonly<Record<string, string>>;
-  readonly enter: (request: IncomingMessage, route: ApiRoute) => Entered;
+  readonly enter: (request: IncomingMessage, route: ApiRoute, subject: string | undefined) => Entered;
   readonly counts: Map<number, number>;
   /** Where changes of documents are written down; acts at robots are by their host. */
   readonly audit: AuditLog | null;
@@ -74,7 +74,7 @@ export function apiListener({ handlers, headers, enter, counts, audit, observe }
           403,
         ),
       };
-    const entered = enter(request, found.route);
+    const entered = enter(request, found.route, found.params["id"] ?? found.params["name"]);
     if (entered.kind === "out")
       return {
         answer: json(refusal("api.access", entered.sentence, entered.hint), entered.status),
@@ -108,6 +108,9 @@ export function apiListener({ handlers, headers, enter, counts, audit, observe }
       lease: String(request.headers[LEASE_HEADER] ?? ""),
       who: entered.who,
       named: entered.named,
+      cookies: request.headers.cookie,
+      address: request.socket.remoteAddress,
+      origin: `${"encrypted" in request.socket ? "https" : "http"}://${request.headers.host ?? ""}`,
       remote: !isLoopback(request.socket.remoteAddress),
       onGone(listen) {
         if (request.socket.destroyed) listen();
@@ -116,7 +119,7 @@ export function apiListener({ handlers, headers, enter, counts, audit, observe }
     };
     const handle = handlers[found.id as ApiRouteId] as (call: Call<never>) => Answer | Promise<Answer>;
     const answered = await handle(call);
-    if (found.route.access === "write")
+    if (found.route.access === "write" || found.route.access === "people")
       audit?.write({
         who: entered.who,
         action: found.id,
@@ -139,6 +142,7 @@ async function write(
     const text = answer.kind === "json" ? JSON.stringify(answer.value) : answer.text;
     response.writeHead(answer.kind === "json" ? (answer.status ?? 200) : 200, {
       ...headers,
+      ...(answer.kind === "json" ? answer.headers : {}),
       "content-type": answer.kind === "json" ? "application/json" : answer.type,
       "content-length": String(Buffer.byteLength(text)),
     });

@@ -16,7 +16,7 @@ const robot = robotById(YASKAWA.model)!;
 test.skipIf(isMissing("asyncua"))(
   "asyncua finds a motion device system for each robot with its axes in degrees, cannot write, is told of motion and of an emergency stop by subscription, and no longer finds a robot that was closed",
   async () => {
-    const port = await freePort();
+    const port = await freePort("127.0.0.1");
     open = await plant({ opcua: port }, YASKAWA);
     expect(await open.ask("POST", "/robots", { id: "second", ...UR })).toEqual({ kind: "done" });
     script = foreignScript("opcua_client.py", open.served.standards[0]!.replace("OPC UA: ", ""));

@@ -30,7 +30,12 @@ test.skipIf(isMissing("opentelemetry.proto.collector.trace.v1.trace_service_pb2"
     const moves = spans.filter(({ name }) => name === "moves the joints");
     expect(moves).toMatchObject([{ "twincell.robot": "arm", "twincell.outcome": "refused", error: true }]);
     const connects = spans.find(({ name }) => name === "connects the controller")!;
-    expect(connects).toMatchObject({ service: "twincell", path: "/v1/traces", "twincell.outcome": "done", error: false });
+    expect(connects).toMatchObject({
+      service: "twincell",
+      path: "/v1/traces",
+      "twincell.outcome": "done",
+      error: false,
+    });
     expect(connects["ms"] as number).toBeGreaterThan(0);
     expect(spans.find(({ name }) => name === "POST openRobot")).toMatchObject({ "http.response.status_code": 200 });
   },
