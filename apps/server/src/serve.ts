@@ -28,6 +28,9 @@ import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
 import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
+import type { StandardContext } from "./standards/standard.ts";
+import { joinFleet, ownFleet, type Fleet } from "./fleet/fleet.ts";
+import type { NatsOptions } from "./fleet/nats.ts";
 import { robotStates } from "./standards/robot-states.ts";
 
 export interface ServeOptions {
@@ -51,6 +54,8 @@ export interface ServeOptions {
   readonly version?: string;
   /** People sign in by name; always so where the data folder has accounts. */
   readonly accounts?: boolean;
+  /** A cluster of NATS servers that this server and others tell of their robots. */
+  readonly nats?: NatsOptions;
   /** Standards of plants that are spoken besides the API. */
   readonly standards?: StandardsOptions;
 }
@@ -78,7 +83,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
   const version = options.version ?? "";
-  const parts: { robots?: ApiRobots; standards?: StartedStandards } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -118,6 +123,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
       data: options.data,
       requests: { byClass: counts },
       ready: () => ready,
+      fleet: () => parts.fleet!,
       people: accounts && {
         accounts,
         sessions,
@@ -153,24 +159,24 @@ export async function serve(options: ServeOptions): Promise<Served> {
       server.once("error", reject);
       server.listen(options.port, host, resolve);
     });
-    standards = parts.standards = await startStandards(
-      {
-        states,
-        robots,
-        scheduler: nodeScheduler,
-        now_ms: () => Date.now(),
-        version,
-        host,
-        hosts,
-        certificate: own,
-        enter: gate.enter,
-        tokens,
-        data: options.data,
-        say,
-      },
-      options.standards ?? {},
-    );
+    const context: StandardContext = {
+      states,
+      robots,
+      scheduler: nodeScheduler,
+      now_ms: () => Date.now(),
+      version,
+      host,
+      hosts,
+      certificate: own,
+      enter: gate.enter,
+      tokens,
+      data: options.data,
+      say,
+    };
+    parts.fleet = options.nats ? await joinFleet(context, options.nats) : ownFleet(context);
+    standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
+    await parts.fleet?.close();
     server.close();
     end();
     throw problem;
@@ -205,6 +211,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     restoring?.close();
     recorder?.close();
     await standards.close();
+    await parts.fleet?.close();
     await new Promise<void>(resolve => {
       end();
       socket.close();

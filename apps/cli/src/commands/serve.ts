@@ -4,7 +4,7 @@ import { spawn } from "node:child_process";
 import { serve, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
 import { given } from "../io/arguments.ts";
-import { checkPort, STANDARD_OPTIONS, standardsOf } from "../io/standards.ts";
+import { checkPort, NATS_OPTIONS, natsOf, STANDARD_OPTIONS, standardsOf } from "../io/standards.ts";
 import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
@@ -16,7 +16,7 @@ export const serveCommand: Command = {
   summary: "serve the studio on this machine, or on the local network with --lan",
   usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--accounts] [--training] [--open]
                [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
-               [--webhooks FILE] [--otlp URL]
+               [--webhooks FILE] [--otlp URL] [--nats HOST:PORT,… --site NAME [--nats-replicas N] [--nats-hours H]]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
@@ -31,6 +31,8 @@ export const serveCommand: Command = {
   --webhooks FILE  addresses that are told what happens: {"format":"twincell.webhooks","version":1,"hooks":[{"url","events","robot","secret"}]}
   --otlp URL   sends traces to an OpenTelemetry collector (http://host:4318)
   --accounts   people sign in by name (needs --data); the first start prints a link that works once and makes the first admin
+  --nats A,B,C --site NAME  tells a NATS cluster (host:port) of its robots under that name and hears of those of others (docs/scale.md);
+               --nats-replicas N copies of what is kept (default 1; 3 in a cluster of three), --nats-hours H how long states are kept (default 168)
   --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
@@ -44,6 +46,7 @@ export const serveCommand: Command = {
       connections: { type: "string" },
       open: { type: "boolean" },
       ...STANDARD_OPTIONS,
+      ...NATS_OPTIONS,
     });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
     const port = options.number("port");
@@ -70,6 +73,7 @@ export const serveCommand: Command = {
         ...(connections === undefined ? {} : { connections }),
         ...(data === undefined ? {} : { data }),
         standards: standardsOf(options),
+        ...natsOf(options),
       },
       port === undefined,
     );

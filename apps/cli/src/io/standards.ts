@@ -47,3 +47,27 @@ export function standardsOf(options: Given): NonNullable<ServeOptions["standards
     otlp: address(options, "otlp", ["http", "https"]),
   };
 }
+
+/** Options by which servers know each other. */
+export const NATS_OPTIONS = {
+  nats: { type: "string" },
+  site: { type: "string" },
+  "nats-replicas": { type: "string" },
+  "nats-hours": { type: "string" },
+} as const;
+export function natsOf(options: Given): Pick<ServeOptions, "nats"> {
+  const servers = options
+    .text("nats")
+    ?.split(",")
+    .map(each => each.trim().replace(/^nats:\/\//, ""))
+    .filter(each => each !== "");
+  if (!servers) return {};
+  const site = options.text("site");
+  if (site === undefined) throw new UseFault("--site is missing.", "Name this line or plant: --site line1.");
+  if (!/^[\w-]{1,60}$/.test(site)) throw new UseFault(`--site wants letters, digits, “_” and “-”, not ${site}.`);
+  const replicas = options.number("nats-replicas") ?? 1;
+  if (![1, 3, 5].includes(replicas)) throw new UseFault(`--nats-replicas wants 1, 3 or 5, not ${replicas}.`);
+  const kept_h = options.number("nats-hours") ?? 168;
+  if (!(kept_h > 0)) throw new UseFault(`--nats-hours wants more than 0, not ${kept_h}.`);
+  return { nats: { servers, site, replicas, kept_h } };
+}

@@ -240,6 +240,22 @@ export const API_ROUTES = {
     access: "look",
     answer: s.stateSchema,
   },
+  fleet: {
+    method: "get",
+    path: "/api/v1/fleet",
+    summary: "Robots of all servers of the cluster, or of this one when it is by itself",
+    tag: "robots",
+    access: "look",
+    answer: s.fleetSchema,
+  },
+  fleetCommand: {
+    ...commands,
+    method: "post",
+    path: "/api/v1/fleet/{site}/command",
+    summary: "Asks the server that has a robot to do something, once for each id",
+    access: "look",
+    body: s.fleetCommandBody,
+  },
   takeLease: {
     method: "post",
     path: `${robot}/lease`,

@@ -181,3 +181,36 @@ export const peopleSchema = z.object({
 export const invitedSchema = z.object({ kind: z.literal("done"), link: z.string().nullable() });
 export type SessionInfo = z.infer<typeof sessionSchema>;
 export type Person = z.infer<typeof peopleSchema>["people"][number];
+
+export const fleetSchema = z.object({
+  robots: z.array(
+    z.object({
+      site: z.string(),
+      id: z.string(),
+      name: z.string(),
+      model: z.string(),
+      vendor: z.string(),
+      virtual: z.boolean(),
+      state: z.enum(["running", "idle", "attention", "stopped", "no-link"]),
+      news: z.string(),
+      holder: z.string().nullable(),
+      use: z.number().describe("Share of the time since its server was started in which it moved, 0 … 1."),
+      roundTrip_s: z.number().nullable(),
+      heard_ms: z.number().describe("When its last sample came, milliseconds since 1970."),
+    }),
+  ),
+});
+export const fleetCommandBody = z.object({
+  id: z
+    .string()
+    .regex(/^[\w-]{8,100}$/)
+    .describe("Makes it one command, however often it is sent."),
+  token: z.string().max(200).describe("Of `twincell token add` at the server that has the robot."),
+  robot: text,
+  act: z.discriminatedUnion("type", [
+    z.object({ type: z.literal("stop"), emergency: z.boolean() }),
+    z.object({ type: z.literal("move"), q_rad: angles }),
+    z.object({ type: z.literal("run"), program }),
+  ]),
+});
+export type FleetEntry = z.infer<typeof fleetSchema>["robots"][number];
