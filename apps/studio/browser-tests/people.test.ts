@@ -2,15 +2,15 @@ import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { afterAll, beforeAll, expect, test } from "vitest";
+import { afterEach, beforeEach, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
-beforeAll(async () => {
+beforeEach(async () => {
   const data = mkdtempSync(join(tmpdir(), "twincell-people-"));
   studio = await Studio.start([], ["--accounts", "--data", data]);
 });
-afterAll(async () => {
+afterEach(async () => {
   await studio.stop();
 });
 const PASSWORD = "correct horse";
@@ -71,12 +71,13 @@ test("the first admin is made by the link that the server prints, invites a view
   await page.getByText("The passkey was added.").waitFor();
   await dialog.getByRole("button", { name: "Sign out" }).click();
   await page.getByRole("heading", { name: "Sign in" }).waitFor();
-  await page.getByLabel("Name").fill("Ada");
-  await page.getByLabel("Password").fill("not her password");
-  await page.getByRole("button", { name: "Sign in", exact: true }).click();
+  const form = page.getByRole("dialog", { name: "Sign in" });
+  await form.getByLabel("Name").fill("Ada");
+  await form.getByLabel("Password").fill("not her password");
+  await form.getByRole("button", { name: "Sign in", exact: true }).click();
   await page.getByText("Name and password do not belong together.").waitFor();
   await page.getByRole("button", { name: "Sign in with a passkey" }).click();
-  await page.getByRole("dialog", { name: "Sign in" }).waitFor({ state: "detached" });
+  await form.waitFor({ state: "detached" });
   await drawn(page);
 
   const other = await openLink(invitation);

@@ -1,10 +1,4 @@
 import { randomBytes } from "node:crypto";
-import {
-  generateAuthenticationOptions,
-  generateRegistrationOptions,
-  verifyAuthenticationResponse,
-  verifyRegistrationResponse,
-} from "@simplewebauthn/server";
 import type { CommandOutcome } from "@twincell/core";
 import type { SessionInfo } from "@twincell/protocol";
 import { json, outcomeAnswer, refusal, type Answer, type Call } from "../api/calls.ts";
@@ -36,6 +30,8 @@ export interface PeopleParts {
   /** Told of each time that somebody signs in or is refused. */
   readonly audit: (who: string, action: string, detail: string, done: boolean) => void;
 }
+/** Loaded when somebody uses a passkey. */
+const webAuthn = () => import("@simplewebauthn/server");
 const DONE: CommandOutcome = { kind: "done" };
 const busy = json(refusal("people.busy", "Many people sign in at once.", "Try again in a moment."), 429);
 const refused = (code: string, sentence: string, hint: string, status = 401): Answer =>
@@ -154,7 +150,10 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       return begin(account, call);
     },
     async beginPasskeySignIn(call) {
-      const options = await generateAuthenticationOptions({ rpID: hostOf(call.origin), userVerification: "required" });
+      const options = await (await webAuthn()).generateAuthenticationOptions({
+        rpID: hostOf(call.origin),
+        userVerification: "required",
+      });
       remember(options.challenge);
       return json(options);
     },
@@ -165,7 +164,7 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       const key = account?.passkeys.find(({ id }) => id === call.body.id);
       if (!account || !key) return wrong(call, "somebody", "by an unknown passkey");
       try {
-        const { verified, authenticationInfo } = await verifyAuthenticationResponse({
+        const { verified, authenticationInfo } = await (await webAuthn()).verifyAuthenticationResponse({
           response: call.body as never,
           expectedChallenge: isMine,
           expectedOrigin: call.origin,
@@ -190,7 +189,7 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       const account = me(call);
       if (!account)
         return refused("people.session", "Only people who are signed in have passkeys.", "Sign in first.", 409);
-      const options = await generateRegistrationOptions({
+      const options = await (await webAuthn()).generateRegistrationOptions({
         rpName: "Twincell",
         rpID: hostOf(call.origin),
         userName: account.name,
@@ -206,7 +205,7 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       if (!account)
         return refused("people.session", "Only people who are signed in have passkeys.", "Sign in first.", 409);
       try {
-        const { verified, registrationInfo } = await verifyRegistrationResponse({
+        const { verified, registrationInfo } = await (await webAuthn()).verifyRegistrationResponse({
           response: call.body as never,
           expectedChallenge: isMine,
           expectedOrigin: call.origin,

@@ -66,7 +66,13 @@ function ByInvitation({ link }: { readonly link: string }) {
     >
       <h1>{words.people.welcome}</h1>
       <p className="small muted">{words.people.welcomeSays}</p>
-      <Field label={words.people.name} value={name} onChange={setName} autoComplete="username" />
+      <Field
+        label={words.people.name}
+        value={name}
+        onChange={setName}
+        autoComplete="username"
+        hint={words.people.nameHint}
+      />
       <Field
         label={words.people.newPassword}
         value={password}
@@ -110,12 +116,14 @@ function Field({
   onChange,
   autoComplete,
   secret = false,
+  hint = "",
 }: {
   readonly label: string;
   readonly value: string;
   readonly onChange: (value: string) => void;
   readonly autoComplete: string;
   readonly secret?: boolean;
+  readonly hint?: string;
 }) {
   return (
     <label className="stack sign-in-field">
@@ -124,6 +132,7 @@ function Field({
         <input
           type={secret ? "password" : "text"}
           value={value}
+          placeholder={hint}
           autoComplete={autoComplete}
           onChange={event => {
             onChange(event.target.value);

@@ -6,6 +6,7 @@ export const peopleWords = {
   signInSays: "This server asks who you are. What is done at robots is written down under your name.",
   name: "Name",
   password: "Password",
+  nameHint: "Yours; left empty, the one of the invitation",
   newPassword: "New password, at least 10 characters",
   passkey: "Sign in with a passkey",
   addPasskey: "Add a passkey",
