@@ -23,6 +23,10 @@ const OPTIONAL = [
   "@opentelemetry/sdk-trace",
   "@opentelemetry/resources",
   "@opentelemetry/exporter-trace-otlp-http",
+  "@nats-io/transport-node",
+  "@nats-io/jetstream",
+  "@nats-io/kv",
+  "@simplewebauthn/server",
 ];
 /** Types that the server knows how to unpack; smaller files are not worth it. */
 const PACKED = [".wasm", ".js", ".css", ".glb", ".json", ".svg"];

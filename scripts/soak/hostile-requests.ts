@@ -1,7 +1,7 @@
 /**
  * Forged, broken and oversized requests by somebody without an account at a server where people sign in: node
- * scripts/soak/hostile-requests.ts [REQUESTS] [SEED]. Nobody is let in, nothing answers 5xx, no act is written down, and
- * the server still answers. The result is kept beside this file.
+ * scripts/soak/hostile-requests.ts [REQUESTS] [SEED]. Nobody is let in, nothing answers 5xx, no act is written down,
+ * and the server still answers. The result is kept beside this file.
  */
 import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";

@@ -8,6 +8,10 @@ export const OPTIONAL_PARTS = [
   { name: "@opentelemetry/sdk-trace", version: "3.1.0", what: "OpenTelemetry" },
   { name: "@opentelemetry/resources", version: "3.1.0", what: "OpenTelemetry" },
   { name: "@opentelemetry/exporter-trace-otlp-http", version: "0.301.0", what: "OpenTelemetry" },
+  { name: "@nats-io/transport-node", version: "3.4.0", what: "A cluster of servers" },
+  { name: "@nats-io/jetstream", version: "3.4.0", what: "A cluster of servers" },
+  { name: "@nats-io/kv", version: "3.4.0", what: "A cluster of servers" },
+  { name: "@simplewebauthn/server", version: "14.0.3", what: "Signing in by passkey" },
 ] as const;
 
 /** The sentence about an optional part that is not installed, or undefined for every other problem. */

@@ -30,10 +30,19 @@ export interface PeopleParts {
   /** Told of each time that somebody signs in or is refused. */
   readonly audit: (who: string, action: string, detail: string, done: boolean) => void;
 }
-/** Loaded when somebody uses a passkey. */
-const webAuthn = () => import("@simplewebauthn/server");
 const DONE: CommandOutcome = { kind: "done" };
 const busy = json(refusal("people.busy", "Many people sign in at once.", "Try again in a moment."), 429);
+type WebAuthn = typeof import("@simplewebauthn/server");
+/** What checks passkeys, loaded when somebody uses one; a package of Twincell leaves it out until it is added. */
+async function webAuthn(): Promise<WebAuthn | Answer> {
+  try {
+    return await import("@simplewebauthn/server");
+  } catch (problem) {
+    if ((problem as NodeJS.ErrnoException).code !== "ERR_MODULE_NOT_FOUND") throw problem;
+    const hint = "On the server run npm install @simplewebauthn/server@14.0.3, or use a password.";
+    return refused("people.no-part", "Passkeys need a part that is not installed.", hint, 409);
+  }
+}
 const refused = (code: string, sentence: string, hint: string, status = 401): Answer =>
   json(refusal(code, sentence, hint), status);
 
@@ -150,7 +159,9 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       return begin(account, call);
     },
     async beginPasskeySignIn(call) {
-      const options = await (await webAuthn()).generateAuthenticationOptions({
+      const library = await webAuthn();
+      if ("kind" in library) return library;
+      const options = await library.generateAuthenticationOptions({
         rpID: hostOf(call.origin),
         userVerification: "required",
       });
@@ -158,13 +169,15 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       return json(options);
     },
     async passkeySignIn(call) {
+      const library = await webAuthn();
+      if ("kind" in library) return library;
       const pause = paused(call);
       if (pause) return pause;
       const account = accounts.all.find(({ passkeys }) => passkeys.some(({ id }) => id === call.body.id));
       const key = account?.passkeys.find(({ id }) => id === call.body.id);
       if (!account || !key) return wrong(call, "somebody", "by an unknown passkey");
       try {
-        const { verified, authenticationInfo } = await (await webAuthn()).verifyAuthenticationResponse({
+        const { verified, authenticationInfo } = await library.verifyAuthenticationResponse({
           response: call.body as never,
           expectedChallenge: isMine,
           expectedOrigin: call.origin,
@@ -186,10 +199,12 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       }
     },
     async beginPasskey(call) {
+      const library = await webAuthn();
+      if ("kind" in library) return library;
       const account = me(call);
       if (!account)
         return refused("people.session", "Only people who are signed in have passkeys.", "Sign in first.", 409);
-      const options = await (await webAuthn()).generateRegistrationOptions({
+      const options = await library.generateRegistrationOptions({
         rpName: "Twincell",
         rpID: hostOf(call.origin),
         userName: account.name,
@@ -201,11 +216,13 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
       return json(options);
     },
     async addPasskey(call) {
+      const library = await webAuthn();
+      if ("kind" in library) return library;
       const account = me(call);
       if (!account)
         return refused("people.session", "Only people who are signed in have passkeys.", "Sign in first.", 409);
       try {
-        const { verified, registrationInfo } = await (await webAuthn()).verifyRegistrationResponse({
+        const { verified, registrationInfo } = await library.verifyRegistrationResponse({
           response: call.body as never,
           expectedChallenge: isMine,
           expectedOrigin: call.origin,
