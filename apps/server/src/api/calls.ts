@@ -36,6 +36,13 @@ export type Answer =
       readonly name: string;
     };
 
+/** Who asks, or why they are turned away. */
+export type Entered =
+  | { readonly kind: "in"; readonly who: string; readonly named: boolean }
+  | { readonly kind: "out"; readonly status: 401 | 403 | 429; readonly sentence: string; readonly hint: string };
+/** What each route does. */
+export type Handlers = { readonly [Id in ApiRouteId]: (call: Call<Id>) => Answer | Promise<Answer> };
+
 export const json = (value: unknown, status = 200): Answer => ({ kind: "json", value, status });
 export const refusal = (code: string, sentence: string, hint: string): CommandOutcome => ({
   kind: "refused",

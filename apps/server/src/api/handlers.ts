@@ -16,7 +16,7 @@ import {
   type ServedConnection,
 } from "@twincell/protocol";
 import type { Fleet } from "../fleet/fleet.ts";
-import { json, outcomeAnswer, refusal, type Answer, type Call } from "./calls.ts";
+import { json, outcomeAnswer, refusal, type Answer, type Call, type Handlers } from "./calls.ts";
 import { documentFolder, type DocumentFolder } from "./documents.ts";
 import type { Judge, JudgeRequest } from "./judge.ts";
 import { metricsText, type RequestCounts } from "./metrics.ts";
@@ -38,7 +38,6 @@ export interface ApiParts {
   readonly people: PeopleParts | null;
   readonly fleet: () => Fleet;
 }
-export type Handlers = { readonly [Id in ApiRouteId]: (call: Call<Id>) => Answer | Promise<Answer> };
 
 /** A motion that is asked for through a cluster is answered within this time, or asked for again by its id [ms]. */
 const FLEET_PATIENCE_MS = 120_000;

@@ -2,15 +2,9 @@ import type { IncomingMessage, ServerResponse } from "node:http";
 import { once } from "node:events";
 import { sameOrigin } from "../sockets/doors.ts";
 import type { AuditLog } from "../people/audit-log.ts";
-import { findRoute, json, readBody, refusal, type Answer, type Call } from "./calls.ts";
-import type { Handlers } from "./handlers.ts";
+import { findRoute, json, readBody, refusal, type Answer, type Call, type Entered, type Handlers } from "./calls.ts";
 import type { ApiRoute, ApiRouteId } from "@twincell/protocol";
 import { LEASE_HEADER } from "@twincell/protocol";
-
-/** Who asks, or why they are turned away. */
-export type Entered =
-  | { readonly kind: "in"; readonly who: string; readonly named: boolean }
-  | { readonly kind: "out"; readonly status: 401 | 403 | 429; readonly sentence: string; readonly hint: string };
 
 export interface ApiOptions {
   readonly handlers: Handlers;

@@ -2,7 +2,7 @@ import type { IncomingMessage } from "node:http";
 import type { Scheduler } from "@twincell/core";
 import { SOCKETS, type ApiRoute } from "@twincell/protocol";
 import { clientOf, type AccessCode } from "../access.ts";
-import type { Entered } from "../api/listener.ts";
+import type { Entered } from "../api/calls.ts";
 import type { Account } from "./accounts.ts";
 import type { AuditLog } from "./audit-log.ts";
 import { mayUse, type Role, type TokenAnswer } from "./tokens.ts";

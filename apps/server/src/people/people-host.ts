@@ -1,8 +1,7 @@
 import { randomBytes } from "node:crypto";
 import type { CommandOutcome } from "@twincell/core";
 import type { SessionInfo } from "@twincell/protocol";
-import { json, outcomeAnswer, refusal, type Answer, type Call } from "../api/calls.ts";
-import type { Handlers } from "../api/handlers.ts";
+import { json, outcomeAnswer, refusal, type Answer, type Call, type Handlers } from "../api/calls.ts";
 import { personName, type Account, type Accounts } from "./accounts.ts";
 import { passwordFault, passwords } from "./passwords.ts";
 import type { Sessions } from "./sessions.ts";

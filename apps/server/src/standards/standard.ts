@@ -1,7 +1,7 @@
 import type { IncomingMessage } from "node:http";
 import type { Scheduler } from "@twincell/core";
 import type { ApiRobots } from "../api/robots.ts";
-import type { Entered } from "../api/listener.ts";
+import type { Entered } from "../api/calls.ts";
 import type { TokenAnswer } from "../people/tokens.ts";
 import type { RobotStates } from "./robot-states.ts";
 
