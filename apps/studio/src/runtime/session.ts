@@ -1,6 +1,6 @@
 import type { Person, SessionInfo } from "@twincell/protocol";
 import { sessionStore } from "../stores/session.ts";
-import { words } from "../messages/index.ts";
+import { say, words } from "../messages/index.ts";
 
 const INVITATION = "invitation";
 /** What a server answers, or the sentence of why not. */
@@ -18,7 +18,10 @@ async function ask<T>(method: string, path: string, body?: unknown): Promise<Ask
       readonly why?: { readonly sentence: string; readonly hint: string };
     };
     if (response.ok) return { kind: "answer", value };
-    return { kind: "no", sentence: value.why ? `${value.why.sentence} ${value.why.hint}` : words.people.unreachable };
+    return {
+      kind: "no",
+      sentence: value.why ? `${say(value.why.sentence)} ${say(value.why.hint)}` : words.people.unreachable,
+    };
   } catch {
     return { kind: "no", sentence: words.people.unreachable };
   }
