@@ -4,6 +4,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { peopleWords } from "./people.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
 export { sentences } from "./sentences.ts";
@@ -21,6 +22,7 @@ export const catalogue: Translation<typeof en> = {
   ...controlWords,
   ...recordsWords,
   direct,
+  people: peopleWords,
   scene,
   text: textWords,
   video: videoWords,

@@ -2,6 +2,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { peopleWords } from "./people.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
@@ -18,6 +19,7 @@ export const en = {
   ...controlWords,
   ...recordsWords,
   direct,
+  people: peopleWords,
   scene,
   text: textWords,
   video: videoWords,
