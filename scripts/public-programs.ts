@@ -42,6 +42,9 @@ const MOTION: Readonly<Record<string, RegExp>> = {
   "melfa-basic": /^\s*(?:\d+\s+)?(?:Mov|Mvs|Mvr)\b/im,
   pacscript: /^\s*(?:Move|Approach|Depart|Drive)\b/im,
 };
+/** What a generator still has to fill in is no program: `%XCoord%` in RAPID, a lone `{}`, `{{ tcp }}`. */
+const TEMPLATE = /^[ \t]*\{\}[ \t]*$|^(?!\s*[;!#]).*%[A-Za-z]\w*%|\{\{.*\}\}/m;
+const FILLED: ReadonlySet<string> = new Set(["krl", "rapid", "urscript", "val3"]);
 /** A robot whose controller speaks the language: what opens does not hang on its dimensions. */
 const ROBOTS: Readonly<Record<string, string>> = {
   krl: "kuka_kr6r900sixx",
@@ -103,6 +106,7 @@ function countAll(root: string): readonly Outcome[] {
     const file = textFileOf(relative(dirname(path), path), bytes);
     const sign = known.find(([, , words]) => words.test(file.text));
     if (sign === undefined || !isCounted(sign[0]) || !MOTION[sign[0]]!.test(file.text)) continue;
+    if (FILLED.has(sign[0]) && TEMPLATE.test(file.text)) continue;
     seen.add(sha256);
     const [repository = "", ...parts] = relative(root, path).split("/");
     const half = Number.parseInt(sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count";
@@ -191,6 +195,9 @@ function print(all: readonly Outcome[]): void {
       `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(15)}   ${share("count").padStart(16)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
     );
   }
+  if (rest.includes("--slow"))
+    for (const { repository, path, ms } of all.toSorted((a, b) => b.ms - a.ms).slice(0, 5))
+      process.stdout.write(`${ms} ms  ${repository}/${path}\n`);
   if (faultsOf === undefined) return;
   for (const { repository, path, fault, dialect, half } of all)
     if (half === "work" && fault !== "" && (faultsOf === "" || dialect === faultsOf))

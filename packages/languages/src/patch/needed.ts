@@ -115,12 +115,18 @@ export function neededFiles(
       }
   };
   keep(first);
+  if (language === "rapid" && !offered.has("main")) {
+    // All modules of a task are loaded together, and main is what is started.
+    const beside = (by.get("main") ?? []).find(({ name }) => nearness(name, first.name) === 0);
+    if (beside !== undefined) keep(beside);
+  }
   for (let file = queue.shift(); file !== undefined; file = queue.shift()) {
     const from = file;
     for (const word of lookAt(language, file).words) {
       if (offered.has(word)) continue;
-      const choice = by.get(word);
-      if (choice === undefined) continue;
+      // A copy of a file that is loaded already is not loaded too.
+      const choice = by.get(word)?.filter(each => ![...kept].some(other => baseOf(other.name) === baseOf(each.name)));
+      if (choice === undefined || choice.length === 0) continue;
       keep(
         choice.reduce((best, each) => (nearness(each.name, from.name) > nearness(best.name, from.name) ? each : best)),
       );

@@ -31,7 +31,7 @@ const isOwnData = (name: string, main: string): boolean =>
   baseOf(name) === baseOf(main) && folderOf(name) === folderOf(main);
 
 /** Files that only hold data: never the one that is run. */
-const DATA = new Set([".dat", ".sys", ".dtx", ".pts", ".va"]);
+const DATA = new Set([".dat", ".sys", ".sysx", ".dtx", ".pts", ".va"]);
 
 /**
  * The file that is run: of those with statements the one whose name no other mentions, the first of several. Undefined
