@@ -55,7 +55,11 @@ const LANGUAGES: Readonly<
 > = {
   krl: { remark: ";", offers: krlOffers },
   rapid: { remark: "!", offers: rapidOffers },
-  val3: { remark: "//", offers: ({ name }) => (endingOf(name) === ".pgx" ? [baseOf(name)] : []) },
+  urscript: { remark: "#", offers: (_, code) => all(code, /^(?:def|thread)\s+(\w+)\s*\(/gm) },
+  val3: {
+    remark: "//",
+    offers: ({ name }, code) => (endingOf(name) === ".pgx" ? [baseOf(name)] : all(code, /<Data\s+name="(\w+)"/gi)),
+  },
 };
 
 const LOOKS = new WeakMap<PatchFile, Look>();
@@ -118,6 +122,11 @@ export function neededFiles(
   if (language === "rapid" && !offered.has("main")) {
     // All modules of a task are loaded together, and main is what is started.
     const beside = (by.get("main") ?? []).find(({ name }) => nearness(name, first.name) === 0);
+    if (beside !== undefined) keep(beside);
+  }
+  if (language === "val3" && baseOf(main) !== "start") {
+    // An application begins with its program "start".
+    const beside = (by.get("start") ?? []).find(({ name }) => nearness(name, first.name) === 0);
     if (beside !== undefined) keep(beside);
   }
   for (let file = queue.shift(); file !== undefined; file = queue.shift()) {

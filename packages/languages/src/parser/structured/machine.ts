@@ -35,6 +35,7 @@ export abstract class BlockMachine<V> {
   private returned: V | undefined;
   /** The label that a GOTO looks for. */
   private sought = "";
+  private soughtAt: TextPlace = { line: 1, column: 1 };
   /** What is not carried out as it stands, by what it is about. */
   notes: Map<string, TextFault> = new Map();
 
@@ -122,6 +123,7 @@ export abstract class BlockMachine<V> {
         return "continue";
       case "goto":
         this.sought = statement.label;
+        this.soughtAt = statement;
         return "goto";
       case "halt":
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
@@ -183,7 +185,7 @@ export abstract class BlockMachine<V> {
     }
     if (flow === "goto")
       throw new TextError(
-        at,
+        this.soughtAt,
         "a label of the routine",
         `Label ${this.sought} is not in ${routine.name}, or inside a block.`,
       );

@@ -92,8 +92,8 @@ export class Machine extends BlockMachine<Value> {
     this.lines = new Lines(
       declared.signals,
       signals,
-      name => this.spelt(name),
-      name => this.variable(name) === undefined,
+      name => this.handedLine(name) ?? this.spelt(name),
+      name => this.variable(name) === undefined || this.handedLine(name) !== undefined,
     );
     this.objects = new WorkObjects(source, changing, declared, this.arm);
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
@@ -235,7 +235,10 @@ export class Machine extends BlockMachine<Value> {
     let place = 0;
     return yield* super.call(
       routine,
-      given.map(each => (each.name === undefined ? { ...each, name: required[place++]!.name } : each)),
+      this.linesByName(
+        routine,
+        given.map(each => (each.name === undefined ? { ...each, name: required[place++]!.name } : each)),
+      ),
       at,
     );
   }
@@ -358,6 +361,28 @@ export class Machine extends BlockMachine<Value> {
       case "call":
         return this.function(expression);
     }
+  }
+
+  /** The line that a parameter of a routine stands for. */
+  private handedLine(name: string): string | undefined {
+    const scope = this.scopes.at(-1);
+    const value = scope?.names.get(name);
+    if (scope === undefined || typeof value !== "string") return undefined;
+    const parameter = this.source.routines.get(scope.routine)?.parameters.find(each => each.name === name);
+    return parameter !== undefined && SIGNAL_TYPE.test(parameter.type) ? value : undefined;
+  }
+
+  /** Lines are handed to a routine by their names. */
+  private linesByName(routine: Routine, args: readonly Argument[]): readonly Argument[] {
+    if (!routine.parameters.some(({ type }) => SIGNAL_TYPE.test(type))) return args;
+    return args.map(argument => {
+      const { name, value } = argument;
+      const type = routine.parameters.find(each => each.name === name)?.type ?? "";
+      if (value?.kind !== "variable" || !SIGNAL_TYPE.test(type)) return argument;
+      const { line, column } = value;
+      const spelt = this.handedLine(value.name) ?? this.spelt(value.name);
+      return { ...argument, value: { kind: "text", value: spelt, line, column } };
+    });
   }
 
   /** A name that is no datum, compared with a value, is that of a line. */
@@ -484,6 +509,8 @@ export class Machine extends BlockMachine<Value> {
         if (typeof part !== "object") throw new TextError(expression, "an array", "Dim asks for the size of an array.");
         return part.length;
       }
+      case "gettaskname":
+        return "T_ROB1";
       case "opmode":
       case "clkread":
       case "runmode":
@@ -981,6 +1008,7 @@ export class Machine extends BlockMachine<Value> {
   }
 }
 
+const SIGNAL_TYPE = /^signal[dag][io]$/;
 const COMPARES = new Set(["=", "<>", "<", ">", "<=", ">="]);
 /** Functions that shift a point. */
 const SHIFTS = new Set(["offs", "reltool"]);
