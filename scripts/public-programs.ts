@@ -1,4 +1,5 @@
-// How many public vendor programs open as they are: npm run public-programs FOLDER [-- --write] [-- --faults krl] [-- --only krl,rapid]
+// How many public vendor programs open as they are, and how many of them then move the robot with every input off:
+// npm run public-programs FOLDER [-- --write] [-- --faults krl] [-- --only krl,rapid] [-- --slow]
 //
 // FOLDER holds one folder a repository, named owner+name, with its files at their paths. Nothing is downloaded; without
 // the folder there is nothing to count. Files are split by hash: with --faults only those of the half to work on are
@@ -185,16 +186,17 @@ function* filesIn(path: string): Generator<string> {
 }
 
 function print(all: readonly Outcome[]): void {
-  process.stdout.write("dialect        files   work: open / of   count: open / of   slowest ms\n");
+  process.stdout.write("dialect        files   work: open, move / of   count: open, move / of   slowest ms\n");
   for (const { id } of DIALECTS) {
     const own = all.filter(({ dialect }) => dialect === id);
     if (own.length === 0) continue;
     const share = (half: Outcome["half"]): string => {
       const of = own.filter(each => each.half === half);
-      return `${of.filter(({ opens }) => opens).length} / ${of.length}`;
+      const count = (which: "opens" | "executes"): number => of.filter(each => each[which]).length;
+      return `${count("opens")}, ${count("executes")} / ${of.length}`;
     };
     process.stdout.write(
-      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(15)}   ${share("count").padStart(16)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
+      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(21)}   ${share("count").padStart(22)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
     );
   }
   if (rest.includes("--slow"))

@@ -29,24 +29,27 @@ const withoutRemarks = (text: string, sign: string): string => text.replace(new 
 function krlOffers(file: PatchFile, code: string): string[] {
   if (OF_THE_CONTROLLER.has(baseOf(file.name))) return [];
   if (endingOf(file.name) !== ".dat")
-    return [baseOf(file.name), ...all(code, /^\s*GLOBAL\s+DEF(?:FCT\s+\w+(?:\[\d*\])?)?\s+([\w$]+)/gim)];
-  const isConfig = /^\s*DEFDAT\s+\$/im.test(code);
-  const declared = isConfig
-    ? /^\s*(?:GLOBAL\s+)?(?:DECL\s+)?(?:GLOBAL\s+)?(?:CONST\s+)?[A-Za-z_]\w*(?:\s+[A-Za-z_]\w*)?\s+([A-Za-z_]\w*)/gim
-    : /^\s*(?:(?:DECL\s+)?GLOBAL\s+(?:DECL\s+)?(?:CONST\s+)?[A-Za-z_]\w*\s+|(?:GLOBAL\s+)?SIGNAL\s+)([A-Za-z_]\w*)/gim;
-  const lists = all(code, /^\s*(?:DECL\s+)?(?:GLOBAL\s+)?[A-Za-z_]\w*\s+(\w+(?:\s*=.*|(?:\[[^\]]*\])?\s*,.*))$/gim);
+    return [baseOf(file.name), ...all(code, /^[ \t]*GLOBAL[ \t]+DEF(?:FCT[ \t]+\w+(?:\[\d*\])?)?[ \t]+([\w$]+)/gim)];
+  const isConfig = /^[ \t]*DEFDAT[ \t]+\$/im.test(code);
+  // The type of a list, and the names in it: `DECL GLOBAL INT A, B[3]`; everything in $CONFIG is global.
+  const lists = Array.from(code.matchAll(DECLARED), ([, words, names]) => ({
+    isGlobal: isConfig || /\bGLOBAL\b/i.test(words!),
+    names: names!,
+  }));
   return [
-    ...all(code, declared),
-    ...(isConfig ? lists.flatMap(list => all(`,${list}`, /,\s*([a-z_]\w*)/g)) : []),
-    ...all(code, /^\s*(?:GLOBAL\s+)?SIGNAL\s+(\w+)/gim),
+    ...lists.flatMap(({ isGlobal, names }) => (isGlobal ? all(`,${names}`, /,[ \t]*([A-Za-z_]\w*)/g) : [])),
+    ...all(code, /^[ \t]*(?:GLOBAL[ \t]+)?SIGNAL[ \t]+(\w+)/gim),
   ];
 }
 
+/** `DECL GLOBAL CONST INT ` and the rest of the line. */
+const DECLARED = /^[ \t]*((?:(?:DECL|GLOBAL|CONST)[ \t]+)*[A-Za-z_]\w*)[ \t]+([A-Za-z_].*)$/gim;
+
 function rapidOffers(_file: PatchFile, code: string): string[] {
   return [
-    ...all(code, /^\s*(?:TASK\s+)?(?:PROC|TRAP|FUNC\s+\w+)\s+(\w+)/gim),
-    ...all(code, /^\s*(?:TASK\s+)?(?:PERS|CONST|VAR)\s+\w+\s+(\w+)/gim),
-    ...all(code, /^\s*(?:RECORD|ALIAS\s+\w+)\s+(\w+)/gim),
+    ...all(code, /^[ \t]*(?:TASK[ \t]+)?(?:PROC|TRAP|FUNC[ \t]+\w+)[ \t]+(\w+)/gim),
+    ...all(code, /^[ \t]*(?:TASK[ \t]+)?(?:PERS|CONST|VAR)[ \t]+\w+[ \t]+(\w+)/gim),
+    ...all(code, /^[ \t]*(?:RECORD|ALIAS[ \t]+\w+)[ \t]+(\w+)/gim),
   ];
 }
 
@@ -55,10 +58,10 @@ const LANGUAGES: Readonly<
 > = {
   krl: { remark: ";", offers: krlOffers },
   rapid: { remark: "!", offers: rapidOffers },
-  urscript: { remark: "#", offers: (_, code) => all(code, /^(?:def|thread)\s+(\w+)\s*\(/gm) },
+  urscript: { remark: "#", offers: (_, code) => all(code, /^(?:def|thread)[ \t]+(\w+)[ \t]*\(/gm) },
   val3: {
     remark: "//",
-    offers: ({ name }, code) => (endingOf(name) === ".pgx" ? [baseOf(name)] : all(code, /<Data\s+name="(\w+)"/gi)),
+    offers: ({ name }, code) => (endingOf(name) === ".pgx" ? [baseOf(name)] : all(code, /<Data[ \t]+name="(\w+)"/gi)),
   },
 };
 

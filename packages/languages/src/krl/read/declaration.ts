@@ -67,7 +67,11 @@ const LINES: Readonly<Record<string, Exclude<SignalDeclaration["wire"], "variabl
   $ANOUT: "analogue-out",
 };
 
-/** `SIGNAL NAME $OUT[n]`, `SIGNAL NAME $OUT[n] TO $OUT[m]`, or another name for a system variable. @throws {TextError} */
+/**
+ * `SIGNAL NAME $OUT[n]`, `SIGNAL NAME $OUT[n] TO $OUT[m]`, or another name for a system variable.
+ *
+ * @throws {TextError}
+ */
 export function readSignal(cursor: Cursor): SignalDeclaration {
   cursor.take();
   const { line, column } = cursor.here;

@@ -24,7 +24,7 @@ const SHARED_LIST = "$CONFIG";
  * after a fault, so that all of them are told at once.
  */
 export function readSource(text: string): SourceAnswer {
-  const lists = Array.from(text.matchAll(/^\s*DEFDAT\s+([\w$]+)/gim), match => match[1]!.toUpperCase());
+  const lists = Array.from(text.matchAll(/^[ \t]*DEFDAT[ \t]+([\w$]+)/gim), match => match[1]!.toUpperCase());
   const reader = new SourceReader(new Set(lists));
   const lines = textLines(text);
   for (const [i, line] of lines.entries()) {

@@ -127,7 +127,7 @@ export class Machine implements Memory {
     const { main } = this.source;
     if (main !== undefined) {
       this.enter(main, [], main.place);
-      this.startedAlone(main);
+      if (!this.startsAlone(main)) this.stack.length = 0;
       while (this.stack.length > 0 && !this.stopped) {
         const frame = this.stack.at(-1)!;
         const { at } = frame;
@@ -171,28 +171,29 @@ export class Machine implements Memory {
     this.defining = "";
   }
 
-  /** A routine that is started by itself has nobody who says what its parameters are. */
-  private startedAlone({ parameters, declarations }: Routine): void {
+  /**
+   * Whether a routine can be started by itself: what it wants to be given must be given by hand, as an input of that
+   * name.
+   */
+  private startsAlone({ name: called, parameters, declarations, place }: Routine): boolean {
     const { values } = this.stack.at(-1)!;
-    for (const { name } of parameters) {
-      const declared = declarations.find(each => each.name === name);
-      if (declared === undefined || declared.isArray || values.has(name)) continue;
+    const asked: string[] = [];
+    for (const { name, out } of parameters) {
+      const type = declarations.find(each => each.name === name)?.type ?? "";
       const given = this.lines.given(name);
-      const value =
-        declared.type === "BOOL"
-          ? bool(given === true)
-          : declared.type === "INT" || declared.type === "REAL"
-            ? typed(whole(typeof given === "number" ? given : 1), declared.type)
-            : undefined;
-      if (value?.kind !== "number" && value?.kind !== "bool") continue;
-      values.set(name, value);
-      this.remark(
-        `parameter ${name}`,
-        declared,
-        "the program that calls this one",
-        `The routine is started by itself: its parameter ${name} is taken as ${String(value.value).toUpperCase()} until it is given by hand.`,
-      );
+      if (type === "BOOL" && typeof given === "boolean") values.set(name, bool(given));
+      else if (typeof given === "number" && (type === "INT" || type === "REAL"))
+        values.set(name, typed(whole(given), type));
+      else if (!out) asked.push(name);
     }
+    if (asked.length === 0) return true;
+    this.remark(
+      "arguments",
+      place,
+      "the program that calls this one",
+      `${called} wants to be given ${asked.join(", ")}: it is not run by itself. Open it with the program that calls it, or give the values by hand.`,
+    );
+    return false;
   }
 
   /** What is wrong in the data of another file shows when it is asked for. */
@@ -567,7 +568,7 @@ export class Machine implements Memory {
       `wait ${statement.line}`,
       statement,
       "a trigger that does not wait",
-      `The wait in line ${statement.line} belongs to a trigger, beside which the robot goes on: it is not carried out.`,
+      "The wait belongs to a trigger, beside which the robot goes on: it is not carried out.",
     );
     this.note(statement);
   }
@@ -653,7 +654,7 @@ export class Machine implements Memory {
         `alternatives ${statement.line}`,
         statement,
         "one thing to wait for",
-        `The wait in line ${statement.line} ends with the first of several inputs: only one of them is waited for here.`,
+        "The wait ends with the first of several inputs: only one of them is waited for here.",
       );
     for (const when of all) this.step(statement, { id: this.stepId(statement.line), type: "wait-for", when });
   }

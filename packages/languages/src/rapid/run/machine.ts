@@ -93,7 +93,7 @@ export class Machine extends BlockMachine<Value> {
       declared.signals,
       signals,
       name => this.handedLine(name) ?? this.spelt(name),
-      name => this.variable(name) === undefined || this.handedLine(name) !== undefined,
+      name => this.isHeldElsewhere(name) || this.handedLine(name) !== undefined,
     );
     this.objects = new WorkObjects(source, changing, declared, this.arm);
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
@@ -209,7 +209,7 @@ export class Machine extends BlockMachine<Value> {
 
   *main(): Generator<Executed, Flow> {
     const main = this.entry();
-    return main === undefined ? "next" : yield* this.call(main, this.argumentsOf(main), main);
+    return main === undefined || !this.startsAlone(main) ? "next" : yield* this.call(main, [], main);
   }
 
   /** Arguments without those that hang on an optional parameter which the routine was not given. */
@@ -277,27 +277,17 @@ export class Machine extends BlockMachine<Value> {
     return alone;
   }
 
-  /** A routine that is started by itself has nobody who gives it its arguments. */
-  private argumentsOf({ parameters, ...at }: Routine): readonly Argument[] {
-    return parameters.flatMap(({ name, type, optional }): Argument[] => {
-      if (optional === true) return [];
-      const value: Expression | undefined =
-        type === "num" || type === "dnum"
-          ? { kind: "number", value: 1, ...placeOnly(at) }
-          : type === "bool"
-            ? { kind: "truth", value: false, ...placeOnly(at) }
-            : type === "string"
-              ? { kind: "text", value: "", ...placeOnly(at) }
-              : undefined;
-      if (value === undefined) return [];
-      this.remark(
-        `parameter ${name}`,
-        at,
-        "the routine that calls this one",
-        `The routine is started by itself: its parameter ${this.spelt(name)} is taken as ${"value" in value ? String(value.value) : ""}.`,
-      );
-      return [{ name, value, ...placeOnly(at) }];
-    });
+  /** Whether a routine can be started by itself: one that wants arguments has nobody who gives them. */
+  private startsAlone({ name, parameters, ...at }: Routine): boolean {
+    const asked = parameters.filter(({ optional }) => optional !== true).map(each => this.spelt(each.name));
+    if (asked.length === 0) return true;
+    this.remark(
+      "arguments",
+      placeOnly(at),
+      "the routine that calls this one",
+      `${this.spelt(name)} wants to be given ${asked.join(", ")}: it is not run by itself. Open it with the module that calls it.`,
+    );
+    return false;
   }
 
   /** The body of the entry with its data made, to be written down. */
@@ -684,8 +674,9 @@ export class Machine extends BlockMachine<Value> {
       case "movec": {
         const goal = args.given(name === "movec" ? 1 : 0, "a target");
         if (this.leaveOut(goal)) return undefined;
+        const step = this.move(name, args, id());
         this.lost = undefined;
-        return this.move(name, args, id());
+        return step;
       }
       case "searchl":
       case "searchc":

@@ -153,7 +153,8 @@ export class Machine extends BlockMachine<Value> {
 
   *main(): Generator<Executed, Flow> {
     const { main } = this.application;
-    const flow = yield* this.call(main, this.argumentsOf(main), main);
+    if (!this.startsAlone(main)) return "next";
+    const flow = yield* this.call(main, [], main);
     // Programs that were to run beside this one and move the arm are carried out behind it.
     for (let task = this.tasks.shift(); task !== undefined; task = this.tasks.shift()) {
       if (flow === "halt" && task.routine === undefined) return flow;
@@ -162,26 +163,16 @@ export class Machine extends BlockMachine<Value> {
     return flow;
   }
 
-  /** A program that is started by itself has nobody who gives it its arguments. */
-  private argumentsOf({ parameters, line, column }: Routine): readonly Argument[] {
-    return parameters.flatMap(({ name, type }): Argument[] => {
-      const value = beginning(type);
-      if (value === undefined || typeof value === "object") return [];
-      this.remark(
-        `parameter ${name}`,
-        { line, column },
-        "the program that calls this one",
-        `The program is started by itself: its parameter ${name} is taken as ${String(value)}.`,
-      );
-      const at = { line, column };
-      const given: Expression =
-        typeof value === "number"
-          ? { kind: "number", value, ...at }
-          : typeof value === "boolean"
-            ? { kind: "truth", value, ...at }
-            : { kind: "text", value, ...at };
-      return [{ name, value: given, ...at }];
-    });
+  /** Whether a program can be started by itself: one that wants arguments has nobody who gives them. */
+  private startsAlone({ name, parameters, line, column }: Routine): boolean {
+    if (parameters.length === 0) return true;
+    this.remark(
+      "arguments",
+      { line, column },
+      "the program that calls this one",
+      `${this.spelt(name)} wants to be given ${parameters.map(each => each.name).join(", ")}: it is not run by itself. Open it with the program that calls it.`,
+    );
+    return false;
   }
 
   /** Programs stand in the text under their own names, those of a library too. */
@@ -524,6 +515,13 @@ export class Machine extends BlockMachine<Value> {
     const names = this.scopes.at(-1)?.names;
     const holder = names?.has(name) === true ? names : this.globals;
     const before = holder.get(name);
+    if (before === undefined && typeof value !== "object")
+      this.remark(
+        `datum ${name}`,
+        to,
+        "the data of the application",
+        `${name} is in no file that is open: whether it is a line is not known, and no line is set.`,
+      );
     if (before !== undefined && kindOf(before) !== kindOf(value))
       throw new TextError(to, `a ${kindOf(before)}`, `"${name}" cannot hold this.`);
     holder.set(name, value);
@@ -606,7 +604,7 @@ export class Machine extends BlockMachine<Value> {
         `overtakes ${at.line}`,
         at,
         "waitEndMove()",
-        `Line ${at.line} overtakes the motion before it on the controller: it is carried out when the robot is there here.`,
+        "This overtakes the motion before it on the controller: it is carried out when the robot is there here.",
       );
   }
 
@@ -635,7 +633,7 @@ export class Machine extends BlockMachine<Value> {
           `alternatives ${statement.line}`,
           statement,
           "one thing to wait for",
-          `The wait in line ${statement.line} ends with the first of several lines: only one of them is waited for here.`,
+          "The wait ends with the first of several lines: only one of them is waited for here.",
         );
         yield this.done(statement, { id: this.stepId(statement), type: "wait-for", when: one });
         return;
@@ -694,7 +692,6 @@ export class Machine extends BlockMachine<Value> {
       case "movel":
       case "movec":
         if (this.leaveOut(this.given(args, word === "movec" ? 1 : 0, word, statement))) return undefined;
-        this.lost = undefined;
         return this.motion(word, statement, id());
       case "dioset": {
         const line = this.nameOf(given(0));
@@ -795,6 +792,7 @@ export class Machine extends BlockMachine<Value> {
       blend_m,
     } as const;
     this.moving = true;
+    this.lost = undefined;
     const via =
       word === "movec"
         ? { via: this.target(this.of("point", this.given(args, 0, word, at)), name, tool.trsf, "on-the-way", at) }
