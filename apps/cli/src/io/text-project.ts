@@ -23,7 +23,8 @@ export interface TextProject {
 /**
  * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a
  * file are found beside it: those of the same name with another ending of the language (program.src has its
- * program.dat), and what else of the controller's backup around it the program names. A ZIP archive stands for the one program in it, and is a folder in a path: backup.zip/R1/weld.src.
+ * program.dat), and what else of the controller's backup around it the program names. A ZIP archive stands for the one
+ * program in it, and is a folder in a path: backup.zip/R1/weld.src.
  */
 export async function textProject(paths: readonly string[], language: string | undefined): Promise<TextProject> {
   const [first] = paths;
