@@ -244,6 +244,12 @@ export class Person {
     await this.frames();
   }
 
+  /** Opens a tab of the plate on the wrist, and a page of it, counted from 1. */
+  async open(tab: "teach" | "check" | "run" | "cell" | "history", page = 1): Promise<void> {
+    await this.press("right", `tab-${tab}`);
+    for (let i = 1; i < page; i++) await this.press("right", "more");
+  }
+
   async tcp(): Promise<Vector3> {
     return this.page.evaluate(() => {
       const [x, y, z] = window.twincell.live.now().worldFromTcp.position;

@@ -1,6 +1,7 @@
 import { direct } from "./en/direct.ts";
 import { textWords } from "./en/text.ts";
 import { videoWords } from "./en/video.ts";
+import { headsetWords } from "./en/headset.ts";
 import { shellWords } from "./en/shell.ts";
 import { cellWords } from "./en/cell.ts";
 import { teachWords } from "./en/teach.ts";
@@ -19,4 +20,5 @@ export const en = {
   direct,
   text: textWords,
   video: videoWords,
+  headset: headsetWords,
 };
