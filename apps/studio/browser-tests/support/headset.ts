@@ -45,11 +45,17 @@ export class Person {
       () =>
         window.twincell.stores.viewStore.getState().inHeadset &&
         window.twincellScene!.gl.xr.getSession()?.inputSources.length === 2,
+      null,
+      { timeout: 120_000 },
     );
     await kept.evaluate(own => {
       Object.defineProperties(window, own);
     });
-    await this.page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined);
+    await this.page.waitForFunction(
+      () => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined,
+      null,
+      { timeout: 120_000 },
+    );
     await this.frames(4);
   }
 
@@ -59,6 +65,7 @@ export class Person {
     await this.page.waitForFunction(
       all => window.twincellScene!.frames >= all || !window.twincellScene!.gl.xr.isPresenting,
       until,
+      { timeout: 120_000 },
     );
   }
 

@@ -2,6 +2,8 @@ import { direct } from "./en/direct.ts";
 import { textWords } from "./en/text.ts";
 import { videoWords } from "./en/video.ts";
 import { headsetWords } from "./en/headset.ts";
+import { offlineWords } from "./en/offline.ts";
+import { phoneWords } from "./en/phone.ts";
 import { shellWords } from "./en/shell.ts";
 import { cellWords } from "./en/cell.ts";
 import { teachWords } from "./en/teach.ts";
@@ -21,4 +23,6 @@ export const en = {
   text: textWords,
   video: videoWords,
   headset: headsetWords,
+  offline: offlineWords,
+  phone: phoneWords,
 };

@@ -55,7 +55,8 @@ export const headsetWords = {
   wrist: { left: "Wrist: left", right: "Wrist: right", stand: "Wrist: stand" },
   turning: { snap: "Turn: 30°", smooth: "Turn: even" },
   fullSize: "Size 1:1",
-  size: (scale: number) => `Size ${scale >= 1 ? `${scale.toFixed(1)}:1` : `1:${(1 / scale).toFixed(scale > 0.5 ? 1 : 0)}`}`,
+  size: (scale: number) =>
+    `Size ${scale >= 1 ? `${scale.toFixed(1)}:1` : `1:${(1 / scale).toFixed(scale > 0.5 ? 1 : 0)}`}`,
   timeline: "Time line",
   camera: "Camera",
   leave: "Leave",
@@ -83,7 +84,11 @@ export const headsetWords = {
   emergencyTold: "Everything stands still. Reset it on the Cell tab, then go on.",
   enableHint: "Hold the grip of the other hand to enable.",
   hint: { controller: "Squeeze at the ring", hand: "Pinch the ring", says: "Let go: the robot stops" },
-  height: (height_mm: number) => `Z ${height_mm.toFixed(0).replace(/\B(?=(\d{3})+$)/g, " ").replace("-", "−")} mm`,
+  height: (height_mm: number) =>
+    `Z ${height_mm
+      .toFixed(0)
+      .replace(/\B(?=(\d{3})+$)/g, " ")
+      .replace("-", "−")} mm`,
   exported: (file: string, lines: number) => `${file}, ${plural(lines, "line")}, was saved by the browser.`,
   wholeEdge: "Ray on an edge, trigger takes it.",
   scaled: (scale: string) => `${scale}: the robot is drawn smaller or larger, its program is not.`,

@@ -3,7 +3,14 @@ import type { Command } from "../../stores/commands.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { notify } from "../../stores/notices.ts";
 import { words } from "../../messages/index.ts";
-import { connectCellRobot, disconnectCellRobot, fetchFromThere, sendThere, showAs, tellRefused } from "./cell-connection.ts";
+import {
+  connectCellRobot,
+  disconnectCellRobot,
+  fetchFromThere,
+  sendThere,
+  showAs,
+  tellRefused,
+} from "./cell-connection.ts";
 import { DRIVER_LIST, type OfferedDriver } from "./driver-list.ts";
 
 /** The virtual controllers that drive the robot of the cell. */

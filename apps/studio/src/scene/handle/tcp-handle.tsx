@@ -2,7 +2,16 @@ import type { Pose } from "@twincell/core";
 import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { Color, DoubleSide, Float32BufferAttribute, type Group, type Mesh, MeshBasicMaterial, PerspectiveCamera, Vector3 } from "three";
+import {
+  Color,
+  DoubleSide,
+  Float32BufferAttribute,
+  type Group,
+  type Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Vector3,
+} from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { useStore } from "zustand";
 import { theLive } from "../../runtime/live.ts";

@@ -2,7 +2,16 @@ import { identity } from "@twincell/core";
 import type { ObjectRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { BoxGeometry, type BufferGeometry, Color, EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
+import {
+  BoxGeometry,
+  type BufferGeometry,
+  Color,
+  EdgesGeometry,
+  type Group,
+  type LineSegments,
+  type Mesh,
+  Vector3,
+} from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { partOffset, physicsNow } from "../../runtime/physics/physics.ts";
 import { GraspMark } from "../physical/grasp-mark.tsx";

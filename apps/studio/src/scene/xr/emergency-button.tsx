@@ -67,7 +67,11 @@ export function EmergencyButton() {
       new BoxGeometry(BOX_M, BOX_M, DEEP_M, 1, 1, 1),
       mergeGeometries([
         new CylinderGeometry(MUSHROOM_M, MUSHROOM_M * 0.92, 0.014, 40).translate(0, MUSHROOM_HIGH_M - 0.007, 0),
-        new CylinderGeometry(MUSHROOM_M * 0.55, MUSHROOM_M * 0.55, MUSHROOM_HIGH_M, 32).translate(0, MUSHROOM_HIGH_M / 2, 0),
+        new CylinderGeometry(MUSHROOM_M * 0.55, MUSHROOM_M * 0.55, MUSHROOM_HIGH_M, 32).translate(
+          0,
+          MUSHROOM_HIGH_M / 2,
+          0,
+        ),
       ])
         .rotateX(Math.PI / 2)
         .translate(0, 0, DEEP_M / 2),

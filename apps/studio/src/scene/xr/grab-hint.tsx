@@ -2,7 +2,15 @@ import { useFrame } from "@react-three/fiber";
 import { Container, Text } from "@react-three/uikit";
 import { useXRInputSourceState } from "@react-three/xr";
 import { useMemo, useRef } from "react";
-import { type BufferGeometry, CapsuleGeometry, type Group, MeshBasicMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
+import {
+  type BufferGeometry,
+  CapsuleGeometry,
+  type Group,
+  MeshBasicMaterial,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { useStore } from "zustand";
 import { theLive } from "../../runtime/live.ts";
@@ -34,7 +42,14 @@ function Hint({ hand }: { readonly hand: boolean }) {
   const ghost = useRef<Group>(null);
   const [open, closed] = useMemo(() => [handGeometry(1), handGeometry(0)], []);
   const material = useMemo(
-    () => new MeshBasicMaterial({ color: "#2fa5a0", transparent: true, opacity: 0.5, depthWrite: false, toneMapped: false }),
+    () =>
+      new MeshBasicMaterial({
+        color: "#2fa5a0",
+        transparent: true,
+        opacity: 0.5,
+        depthWrite: false,
+        toneMapped: false,
+      }),
     [],
   );
   const since = useRef(0);
@@ -87,10 +102,14 @@ function Hint({ hand }: { readonly hand: boolean }) {
   );
 }
 
-/** A right hand from the front right whose thumb and index finger meet at the origin. @param open 1: apart; 0: closed. */
+/** A right hand whose thumb and index finger meet at the origin. @param open  1: apart; 0: closed. */
 function handGeometry(open: number): BufferGeometry {
   const parts: BufferGeometry[] = [];
-  const bone = (from: readonly [number, number, number], to: readonly [number, number, number], radius: number): void => {
+  const bone = (
+    from: readonly [number, number, number],
+    to: readonly [number, number, number],
+    radius: number,
+  ): void => {
     const a = new Vector3(...from);
     const b = new Vector3(...to);
     const along = b.clone().sub(a);

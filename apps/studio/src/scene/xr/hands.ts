@@ -22,6 +22,8 @@ export interface HandState {
   /** Place and way of the pointing ray. */
   readonly worldFromRay: Pose<"world", "hand">;
   tracked: boolean;
+  /** Its position was measured once, not guessed from how an arm is built. */
+  measured: boolean;
   squeezing: boolean;
   pointing: boolean;
 }
@@ -30,6 +32,7 @@ export const handState = (): HandState => ({
   holds: [0, 0, 0],
   worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
   tracked: false,
+  measured: false,
   squeezing: false,
   pointing: false,
 });
@@ -60,8 +63,9 @@ export function readHand(
     return;
   }
   const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
-  // A controller out of sight is said to be where it was seen last, or where its owner's elbow might be.
-  out.tracked = grip !== undefined && grip !== null && !grip.emulatedPosition;
+  // One that was measured and now is guessed is out of sight; one that is never measured has only its guess.
+  if (grip?.emulatedPosition === false) out.measured = true;
+  out.tracked = grip ? !grip.emulatedPosition || !out.measured : false;
   if (grip && out.tracked) {
     intoWorld(grip.transform, room, out.worldFromHand);
     for (let k = 0; k < 3; k++) out.holds[k] = out.worldFromHand.position[k]!;

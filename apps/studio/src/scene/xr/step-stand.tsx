@@ -84,7 +84,10 @@ function Steps() {
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : null));
   const running = useStore(controlStore, state => (state.running ? state.step : ""));
   const verdict = useStore(playStore, state => state.verdict);
-  const [scrolled, setScrolled] = useState<{ readonly of: string | null; readonly from: number }>({ of: null, from: 0 });
+  const [scrolled, setScrolled] = useState<{ readonly of: string | null; readonly from: number }>({
+    of: null,
+    from: 0,
+  });
   const current = running || selected;
   const at = steps.findIndex(step => step.id === current);
   const most = Math.max(0, steps.length - ROWS);

@@ -1,7 +1,14 @@
 import { type CellDocument, shapeMesh } from "@twincell/project";
 import { transformPoint, type Vector3 } from "@twincell/core";
 import { useEffect, useMemo } from "react";
-import { BoxGeometry, type BufferGeometry, Color, Float32BufferAttribute, MeshBasicMaterial, PlaneGeometry } from "three";
+import {
+  BoxGeometry,
+  type BufferGeometry,
+  Color,
+  Float32BufferAttribute,
+  MeshBasicMaterial,
+  PlaneGeometry,
+} from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 
 /** From the edge of the cell to the wall, and the least half length of a side [m]. */
@@ -120,7 +127,10 @@ function lines({ halfX, halfY }: Ground): BufferGeometry[] {
 /** A wall in the plane x = 0 that is seen from −x, with panels at its foot and a row of windows. */
 function wall(half: number, darker: number): BufferGeometry[] {
   const flat = (width: number, height: number, y: number, z: number, before: number): BufferGeometry =>
-    new PlaneGeometry(width, height).rotateZ(Math.PI / 2).rotateY(-Math.PI / 2).translate(-before, y, z);
+    new PlaneGeometry(width, height)
+      .rotateZ(Math.PI / 2)
+      .rotateY(-Math.PI / 2)
+      .translate(-before, y, z);
   const parts = [
     painted(flat(2 * half, HIGH_M, 0, HIGH_M / 2, 0), COLOURS.wall, darker),
     painted(flat(2 * half, PANEL_M, 0, PANEL_M / 2, 0.004), COLOURS.panel, darker),

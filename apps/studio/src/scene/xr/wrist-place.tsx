@@ -46,7 +46,9 @@ export function WristPlace({ keys }: { readonly keys: KeyAim }) {
       if (!shown) setShown(true);
       return;
     }
-    const palm = controller ? palmOfController(controller.inputSource, frame, space) : palmOfHand(hand!.inputSource, frame, space);
+    const palm = controller
+      ? palmOfController(controller.inputSource, frame, space)
+      : palmOfHand(hand!.inputSource, frame, space);
     if (!palm) return;
     at.position.copy(place).addScaledVector(UP, ABOVE_M);
     at.scale.setScalar(1);
