@@ -98,18 +98,15 @@ describe("L-05 L-06 in an emulated Quest 3, from the first second on", () => {
   });
 
   test("L-31 the way of the hand is recorded as poses while the tool is held", async () => {
+    await person.open("teach");
+    await page.evaluate(() => {
+      window.twincell.stores.headsetStore.setState({ recordAs: "circ" });
+    });
     await person.press("right", "path");
     expect(await page.evaluate(() => window.twincell.stores.headsetStore.getState().recordAs)).toBe("way");
     const before = (await steps(page)).length;
-    await drag([0.04, 0, 0.02]);
-    await page.waitForFunction(
-      count =>
-        window.twincell.stores.cellStore
-          .getState()
-          .document!.programs.flatMap(each => (each.format === "twincell.program" ? each.steps : [])).length >
-        count + 5,
-      before,
-    );
+    await drag([0.04, 0, 0.03], 0.01);
+    await expect.poll(async () => (await steps(page)).length, { timeout: 60_000 }).toBeGreaterThan(before + 4);
     await person.press("right", "path");
     await person.press("right", "undo");
     expect(await steps(page)).toHaveLength(before);
@@ -260,10 +257,10 @@ describe("L-05 L-06 in an emulated Quest 3, from the first second on", () => {
   const emergency = (): Promise<boolean> =>
     page.evaluate(() => window.twincell.stores.headsetStore.getState().emergency);
   /** Takes the tool, carries it by a way in the world, lets go. */
-  async function drag(way: Vector3): Promise<void> {
+  async function drag(way: Vector3, step_m = 0.05): Promise<void> {
     await person.reach("right", await person.tcp());
     await person.squeeze("right", 1);
-    await person.carry("right", way, 0.05);
+    await person.carry("right", way, step_m);
     await person.squeeze("right", 0);
     await person.reach("right", [1.5, 0.5, 1.2]);
   }

@@ -9,8 +9,11 @@ import { Suspense, useEffect, useMemo } from "react";
 import { type BufferGeometry, type Material, Mesh, type Object3D } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 
-/** A key that is held down for long before it is let go was pressed all the same. */
-export const UNHURRIED = { clickThresholdMs: Infinity };
+/**
+ * A key that is held down for long before it is let go was pressed all the same. Nearer than the distance a ray presses
+ * nothing; it counts in metres of the cell, so that it is twice as long where the cell is drawn 2:1.
+ */
+export const UNHURRIED = { clickThresholdMs: Infinity, minDistance: 0.06 };
 
 /**
  * The controller of this headset, as its maker draws it, in one draw call a material instead of one a button; and its
