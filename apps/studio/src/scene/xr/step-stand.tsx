@@ -57,8 +57,8 @@ export function StepStand({ keys }: { readonly keys: KeyAim }) {
 
 function Post() {
   const [geometry, material] = useMemo(() => {
-    const post = new CylinderGeometry(0.02, 0.02, POST_M, 16).translate(0, -POST_M / 2, -0.03);
-    const foot = new CylinderGeometry(0.19, 0.21, 0.03, 40).translate(0, -POST_M, -0.03);
+    const post = new CylinderGeometry(0.02, 0.02, POST_M, 16).translate(0, -POST_M / 2, -0.06);
+    const foot = new CylinderGeometry(0.19, 0.21, 0.03, 40).translate(0, -POST_M, -0.06);
     return [
       mergeGeometries([post, foot]),
       new MeshStandardMaterial({ color: "#7d868b", roughness: 0.5, metalness: 0.3 }),
