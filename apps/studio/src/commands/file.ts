@@ -9,7 +9,7 @@ import { openCell } from "../stores/opening.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { cardOf, shapeStore } from "../stores/shapes.ts";
 import { download } from "../ui/download.ts";
-import { words } from "../messages/index.ts";
+import { say, words } from "../messages/index.ts";
 
 /** What a person does with whole cells; `chooseFile` lets them pick one from the disk. */
 export const fileCommands = (chooseFile: () => void): readonly Command[] => [
@@ -79,7 +79,7 @@ async function saveExport(): Promise<void> {
   try {
     const { emitted } = await writtenProgram(program, document);
     if (emitted?.kind !== "emitted") {
-      notify("bad", emitted ? `${emitted.sentence} ${emitted.hint}` : words.export.cannot);
+      notify("bad", emitted ? say(`${emitted.sentence} ${emitted.hint}`) : words.export.cannot);
       return;
     }
     for (const { name, text } of emitted.files) download(name, new Blob([text], { type: "text/plain" }));

@@ -5,6 +5,7 @@ import { useRef, useState } from "react";
 import { type Group, Vector3 } from "three";
 import { theLive } from "../../runtime/live.ts";
 import { words } from "../../messages/index.ts";
+import { whole } from "../../messages/numbers.ts";
 import type { Interaction } from "../interaction.ts";
 import { toScene } from "../world-space.ts";
 
@@ -33,7 +34,7 @@ export function HeldHeight({ interaction }: { readonly interaction: Interaction 
     since.current += dt_s;
     if (since.current < READ_EVERY_S) return;
     since.current = 0;
-    const next = words.headset.height(millimetres(theLive().worldFromTcp.position[2]));
+    const next = words.headset.height(whole(millimetres(theLive().worldFromTcp.position[2])));
     if (next !== text) setText(next);
   }, -8);
   return (

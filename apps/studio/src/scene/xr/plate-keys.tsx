@@ -19,6 +19,7 @@ import { sound } from "../../stores/sound.ts";
 import { stopEverything } from "../../stores/stop.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { Key, type KeyProps, Row } from "./keys.tsx";
 
 const SAID = words.headset;
@@ -149,7 +150,7 @@ function HandKeys() {
         />
         <PlateKey
           id="ratio"
-          words={SAID.ratio(ratio)}
+          words={SAID.ratio(Math.round(1 / ratio))}
           strong={ratio !== 1}
           onPress={() => {
             headsetStore.setState({ ratio: nextOf<number>(RATIOS, ratio) });
@@ -319,12 +320,12 @@ function Person() {
         />
         <PlateKey
           id="scale"
-          words={SAID.size(scale)}
+          words={SAID.size(scaleWords(scale))}
           strong={scale !== 1}
           onPress={() => {
             const next = nextOf<number>(SCALES, SCALES.find(each => Math.abs(each - scale) < 1e-3) ?? SCALES.at(-1)!);
             scaleCell(next);
-            notify("info", SAID.scaled(SAID.size(next)));
+            notify("info", SAID.scaled(SAID.size(scaleWords(next))));
           }}
         />
       </Row>
@@ -332,6 +333,8 @@ function Person() {
   );
 }
 const SCALES = [1, 0.5, 0.2, 0.05, 2] as const;
+const scaleWords = (scale: number): string =>
+  scale >= 1 ? `${fixed(scale, scale === Math.round(scale) ? 0 : 1)}:1` : `1:${fixed(1 / scale, scale > 0.5 ? 1 : 0)}`;
 
 function History() {
   return (

@@ -13,7 +13,7 @@ import { playStore, verdictOf } from "../../stores/play.ts";
 import { stepWords } from "../../stores/program.ts";
 import { repairStore } from "../../stores/repairs.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import type { KeyAim } from "./grabber.ts";
 import { Key, Row, WORDS_PX } from "./keys.tsx";
 import { RoomPanel, Words } from "./room-panel.tsx";
@@ -73,7 +73,9 @@ function Title() {
   return (
     <>
       <Words>{SAID.steps}</Words>
-      <Words color={QUIET}>{SAID.stepsCount(program?.steps.length ?? 0, duration_s)}</Words>
+      <Words color={QUIET}>{duration_s === null
+          ? String(program?.steps.length ?? 0)
+          : SAID.stepsCount(program?.steps.length ?? 0, duration_s)}</Words>
     </>
   );
 }
@@ -172,7 +174,7 @@ function Findings() {
   const { verdict, checking, stale, trouble } = useStore(playStore);
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : null));
   const { current, explanations, searching } = useStore(repairStore);
-  if (trouble) return <Words color="#ff8a82">{trouble}</Words>;
+  if (trouble) return <Words color="#ff8a82">{say(trouble)}</Words>;
   if (checking !== null) return <Words color={QUIET}>{SAID.checking(Math.round(checking * 100))}</Words>;
   if (!verdict || !program || stale) return <Words color={QUIET}>{SAID.notChecked}</Words>;
   const cards = whyCards(verdict, program);
@@ -186,11 +188,11 @@ function Findings() {
   return (
     <>
       <Words color={card.verdict === "bad" ? "#ff8a82" : "#ffcf70"}>{SAID.problem(index + 1, cards.length)}</Words>
-      <Words>{card.finding.sentence}</Words>
+      <Words>{say(card.finding.sentence)}</Words>
       {searching !== null && <Words color={QUIET}>{SAID.searching}</Words>}
       {explanation?.repairs.length === 0 && <Words color={QUIET}>{SAID.noRepair}</Words>}
       {explanation?.repairs.slice(0, 3).map((repair, i) => (
-        <Words key={repair.sentence} color="#8fe0dc">{`${i + 1}  ${repair.sentence}`}</Words>
+        <Words key={repair.sentence} color="#8fe0dc">{SAID.offer(i + 1, say(repair.sentence))}</Words>
       ))}
     </>
   );

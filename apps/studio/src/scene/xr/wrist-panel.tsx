@@ -11,7 +11,7 @@ import { playStore } from "../../stores/play.ts";
 import { stationStore } from "../../stores/stations.ts";
 import { showMode } from "../../stores/view.ts";
 import { watchStore } from "../../stores/watch.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { WORDS } from "../words.ts";
 import { aimAt, type KeyAim } from "./grabber.ts";
 import { Key } from "./keys.tsx";
@@ -128,7 +128,7 @@ function Foot() {
           backgroundColor={station === null ? "#8b969c" : open ? "#57d783" : "#ffcf70"}
         />
         <Text id="controller" fontSize={SMALL_PX} color="#dfe6e9">
-          {station === null ? `${SAID.simulated} ${robot}` : `${connected?.name ?? robot}, ${SAID.state[view]}`}
+          {station === null ? SAID.simulated(robot) : SAID.connected(connected?.name ?? robot, SAID.state[view])}
         </Text>
       </Container>
       <Text id="speed" fontSize={SMALL_PX} fontWeight="bold" color="#f2f6f8">
@@ -161,7 +161,7 @@ function Said() {
   const notice = useStore(noticeStore, ({ notices }) => notices.at(-1));
   const other = useStore(stationStore, ({ stations }) => {
     const said = stations.find(station => station.notice !== "");
-    return said ? `${said.name}: ${said.notice}` : "";
+    return said ? `${said.name}: ${say(said.notice)}` : "";
   });
   const bad = emergency || blocked || touching || notice?.tone === "bad";
   const sentence = emergency
