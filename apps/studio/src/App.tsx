@@ -12,6 +12,7 @@ import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
+import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
 import { Physics } from "./features/physics/Physics.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
@@ -147,6 +148,7 @@ export function App() {
           <Welcome />
           <SignIn />
           <Notices />
+          <UpdateBar />
           <span className="visually-hidden" id="reorder-hint">
             {words.tree.reorderHint}
           </span>

@@ -40,6 +40,8 @@ export interface OpenOptions {
   readonly touch?: boolean;
   /** Installs an emulated headset before the page starts: a Quest 3, or the one that is named. */
   readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro";
+  /** The page may keep itself for use without a network; every other test asks the server for everything. */
+  readonly offline?: boolean;
   /** Added to the page before it starts. */
   readonly script?: string;
   readonly query?: string;
@@ -94,6 +96,7 @@ export class Studio {
       hasTouch: options.touch ?? false,
       isMobile: options.touch ?? false,
       acceptDownloads: true,
+      serviceWorkers: options.offline === true ? "allow" : "block",
       colorScheme: options.theme ?? "dark",
       locale: options.locale ?? "en-US",
     });
