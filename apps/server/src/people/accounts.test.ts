@@ -1,4 +1,5 @@
 /** People who sign in by name: the first by the link that the server prints, others by links of an admin. */
+import { createHash, generateKeyPairSync, randomBytes, sign } from "node:crypto";
 import { once } from "node:events";
 import { mkdtempSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { request as httpRequest } from "node:http";
@@ -201,6 +202,77 @@ test("on the socket of the studio a viewer looks and stops, what commands is ref
   expect(lines).toContainEqual(expect.objectContaining({ who: "Ada", action: "putPerson", outcome: "done" }));
   expect(await ask(served, "DELETE", "/people/Vera", { cookie: admin })).toMatchObject({ status: 200 });
   expect((await once(socket, "close"))[0]).toBe(4401);
+}, 60_000);
+
+/** An authenticator in software: one ES256 key, user verified (WebAuthn level 3, attestation “none”). */
+function authenticator(origin: string) {
+  const { privateKey, publicKey } = generateKeyPairSync("ec", { namedCurve: "P-256" });
+  const { x = "", y = "" } = publicKey.export({ format: "jwk" });
+  const id = randomBytes(16);
+  const sha = (bytes: Uint8Array): Buffer => createHash("sha256").update(bytes).digest();
+  let count = 0;
+  const client = (type: string, challenge: string): Buffer => Buffer.from(JSON.stringify({ type, challenge, origin }));
+  const data = (flags: number): Buffer => {
+    const counter = Buffer.alloc(4);
+    counter.writeUInt32BE(++count);
+    return Buffer.concat([sha(Buffer.from(new URL(origin).hostname)), Buffer.from([flags]), counter]);
+  };
+  const credential = (response: object) => ({
+    id: id.toString("base64url"),
+    rawId: id.toString("base64url"),
+    type: "public-key",
+    clientExtensionResults: {},
+    response,
+  });
+  const text = (bytes: Uint8Array): string => Buffer.from(bytes).toString("base64url");
+  return {
+    create(challenge: string) {
+      const cose = Buffer.concat([
+        Buffer.from("a5010203262001215820", "hex"),
+        Buffer.from(x, "base64url"),
+        Buffer.from("225820", "hex"),
+        Buffer.from(y, "base64url"),
+      ]);
+      const authData = Buffer.concat([data(0x45), Buffer.alloc(16), Buffer.from([0, id.length]), id, cose]);
+      const object = Buffer.concat([
+        Buffer.from("a363666d74646e6f6e656761747453746d74a068617574684461746158", "hex"),
+        Buffer.from([authData.length]),
+        authData,
+      ]);
+      const clientDataJSON = text(client("webauthn.create", challenge));
+      return credential({ clientDataJSON, attestationObject: text(object), transports: ["internal"] });
+    },
+    get(challenge: string) {
+      const clientData = client("webauthn.get", challenge);
+      const authenticatorData = data(0x05);
+      const signature = sign("sha256", Buffer.concat([authenticatorData, sha(clientData)]), privateKey);
+      return credential({
+        clientDataJSON: text(clientData),
+        authenticatorData: text(authenticatorData),
+        signature: text(signature),
+      });
+    },
+  };
+}
+
+test("a passkey is added by whoever is signed in and signs in without a password; one answer to a challenge is taken once, and one of another origin never", async () => {
+  const served = await server(folder());
+  const cookie = await ada(served);
+  const origin = `http://127.0.0.1:${new URL(served.url).port}`;
+  const key = authenticator(origin);
+  const challenge = async (path: string, as = "") =>
+    String((await ask(served, "POST", path, { cookie: as, body: {} })).body["challenge"]);
+  const other = authenticator("http://elsewhere.example").create(await challenge("/passkeys/begin", cookie));
+  expect(await ask(served, "POST", "/passkeys", { cookie, body: other })).toMatchObject({ status: 400 });
+  const made = key.create(await challenge("/passkeys/begin", cookie));
+  expect(await ask(served, "POST", "/passkeys", { cookie, body: made })).toMatchObject({ status: 200 });
+  const given = key.get(await challenge("/session/passkey/begin"));
+  const entered = await ask(served, "POST", "/session/passkey", { body: given });
+  expect(entered).toMatchObject({ status: 200, body: { name: "Ada", role: "admin", passkeys: 1 } });
+  expect(await ask(served, "GET", "/people", { cookie: entered.cookie })).toMatchObject({ status: 200 });
+  expect(await ask(served, "POST", "/session/passkey", { body: given })).toMatchObject({ status: 401 });
+  const unknown = authenticator(origin).get(await challenge("/session/passkey/begin"));
+  expect(await ask(served, "POST", "/session/passkey", { body: unknown })).toMatchObject({ status: 401 });
 }, 60_000);
 
 test("ten wrong passwords of one address make that address wait and nobody else; a wrong name takes as long as a wrong password and says the same", async () => {
