@@ -14,6 +14,7 @@ import { startJogging } from "./runtime/jog/jogger.ts";
 import { hold, startPhysics } from "./runtime/physics/physics.ts";
 import { pause, startPlayhead } from "./runtime/history/playhead.ts";
 import { startRepairing } from "./runtime/planning/repairing.ts";
+import { lookForSession } from "./runtime/session.ts";
 import { startPreview } from "./runtime/planning/preview.ts";
 import { startTexts } from "./runtime/text-program.ts";
 import { cellStore } from "./stores/cell.ts";
@@ -40,6 +41,7 @@ const newCellId = (): string =>
 /** Starts everything that lives as long as the page. Nothing here waits for the 3D view. */
 export function boot(): void {
   keepPreferences(localStorage, matchMedia("(prefers-color-scheme: light)").matches);
+  void lookForSession();
   startFollowing();
   startPlayhead();
   startPhysics();

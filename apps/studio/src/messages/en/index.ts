@@ -2,6 +2,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
 import { phone } from "./phone.ts";
@@ -21,6 +22,7 @@ export const en = {
   ...controlWords,
   ...recordsWords,
   direct,
+  people: peopleWords,
   headset,
   offline,
   phone,
