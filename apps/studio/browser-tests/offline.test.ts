@@ -100,6 +100,7 @@ const points = (page: Page): Promise<number> =>
 
 test("L-01 from any web server, below a path: installable, and without a network from the second visit on it teaches, checks, exports and connects its virtual controller", async () => {
   const { page, context } = await studio.open({ offline: true });
+  page.setDefaultTimeout(120_000);
   await page.goto(web.url);
   await drawn(page);
   const session = await context.newCDPSession(page);
@@ -142,10 +143,11 @@ test("L-01 from any web server, below a path: installable, and without a network
   await page.screenshot({ path: picture("offline") });
   await context.close();
   await web.start();
-}, 300_000);
+}, 600_000);
 
 test("a newer version waits for the person, takes nothing that was made, and fetches only what changed", async () => {
   const { page, context } = await studio.open({ offline: true });
+  page.setDefaultTimeout(120_000);
   await page.goto(web.url);
   await drawn(page);
   await kept(page);
@@ -171,10 +173,11 @@ test("a newer version waits for the person, takes nothing that was made, and fet
   expect(await points(page)).toBe(1);
   expect(await page.evaluate(() => caches.keys())).toEqual(["twincell-newer"]);
   await context.close();
-}, 300_000);
+}, 600_000);
 
 test("a worker that answers every page with an error is replaced by the next good one, and the page opens by itself", async () => {
   const { page, context } = await studio.open({ offline: true });
+  page.setDefaultTimeout(120_000);
   await page.goto(web.url);
   await drawn(page);
   await kept(page);
@@ -194,4 +197,4 @@ test("a worker that answers every page with an error is replaced by the next goo
   await page.waitForFunction(() => "twincell" in window, null, { timeout: 120_000, polling: 500 });
   await drawn(page);
   await context.close();
-}, 300_000);
+}, 600_000);

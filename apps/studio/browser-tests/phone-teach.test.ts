@@ -39,9 +39,9 @@ const tcp = (page: Page): Promise<Vector3> =>
     const [x, y, z] = window.twincell.live.now().worldFromTcp.position;
     return [x, y, z];
   });
-async function middle(page: Page, selector: string): Promise<{ x: number; y: number }> {
+async function middle(page: Page, selector: string): Promise<{ x: number; y: number; rim: number }> {
   const box = (await page.locator(selector).boundingBox())!;
-  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2, rim: 0.46 * box.height };
 }
 const paths = (page: Page): Promise<string[]> =>
   page.evaluate(() =>
@@ -69,7 +69,7 @@ describe.each([
     const enable = await middle(page, ".phone-enable");
     const start = await tcp(page);
 
-    await fingers.put(1, pad.x, pad.y - 80);
+    await fingers.put(1, pad.x, pad.y - pad.rim);
     await page.waitForTimeout(300);
     await fingers.lift(1);
     expect(distance(await tcp(page), start), "without the switch").toBe(0);
@@ -77,7 +77,7 @@ describe.each([
     await fingers.put(2, enable.x, enable.y);
     expect(await page.locator(".phone-enable").getAttribute("aria-pressed")).toBe("true");
     await page.screenshot({ path: picture(`phone-teach-${width}`) });
-    await fingers.put(1, pad.x, pad.y - 84);
+    await fingers.put(1, pad.x, pad.y - pad.rim);
     await page.waitForFunction(x => window.twincell.live.now().worldFromTcp.position[0] > x + 0.02, start[0]);
     const forward = await tcp(page);
     expect(Math.abs(forward[1] - start[1]) + Math.abs(forward[2] - start[2]), "along X alone").toBeLessThan(1e-6);
@@ -89,7 +89,7 @@ describe.each([
     await fingers.lift(1);
 
     await fingers.put(2, enable.x, enable.y);
-    await fingers.put(1, rocker.x, rocker.y - 70);
+    await fingers.put(1, rocker.x, rocker.y - rocker.rim);
     await page.waitForFunction(z => window.twincell.live.now().worldFromTcp.position[2] > z + 0.01, stopped[2]);
     await fingers.lift(1);
     const up = await tcp(page);

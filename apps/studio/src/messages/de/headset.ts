@@ -80,7 +80,8 @@ export const headset = {
   emergencyTold: "Alles steht. Unter Zelle quittieren, dann geht es weiter.",
   hint: { controller: "Am Ring zugreifen", hand: "Den Ring greifen", says: "Loslassen: der Roboter steht" },
   "height(height_mm)": "Z {height_mm} mm",
-  "exported(file, lines: number)": "{file}, {lines, plural, one {# Zeile} other {# Zeilen}}, hat der Browser gespeichert.",
+  "exported(file, lines: number)":
+    "{file}, {lines, plural, one {# Zeile} other {# Zeilen}}, hat der Browser gespeichert.",
   wholeEdge: "Strahl auf eine Kante, der Abzug nimmt sie.",
   "scaled(size)": "{size}: der Roboter wird kleiner oder größer gezeichnet, sein Programm nicht.",
 };

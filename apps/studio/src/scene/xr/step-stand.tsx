@@ -73,9 +73,11 @@ function Title() {
   return (
     <>
       <Words>{SAID.steps}</Words>
-      <Words color={QUIET}>{duration_s === null
+      <Words color={QUIET}>
+        {duration_s === null
           ? String(program?.steps.length ?? 0)
-          : SAID.stepsCount(program?.steps.length ?? 0, duration_s)}</Words>
+          : SAID.stepsCount(program?.steps.length ?? 0, duration_s)}
+      </Words>
     </>
   );
 }
@@ -192,7 +194,9 @@ function Findings() {
       {searching !== null && <Words color={QUIET}>{SAID.searching}</Words>}
       {explanation?.repairs.length === 0 && <Words color={QUIET}>{SAID.noRepair}</Words>}
       {explanation?.repairs.slice(0, 3).map((repair, i) => (
-        <Words key={repair.sentence} color="#8fe0dc">{SAID.offer(i + 1, say(repair.sentence))}</Words>
+        <Words key={repair.sentence} color="#8fe0dc">
+          {SAID.offer(i + 1, say(repair.sentence))}
+        </Words>
       ))}
     </>
   );
