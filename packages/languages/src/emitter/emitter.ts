@@ -1,4 +1,12 @@
-import { identity, type Dialect, type EmittedFile, type Program, type Robot } from "@twincell/core";
+import {
+  identity,
+  lowered,
+  type Capability,
+  type Dialect,
+  type EmittedFile,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { tellsRobot, undeclared, writtenOr } from "./cannot.ts";
 import { Place } from "./place.ts";
 
@@ -9,6 +17,8 @@ export interface Emitter<Spoken> {
   /** What is known of a robot's controller, or undefined where it does not speak the language. */
   readonly spokenBy: (robot: Robot) => Spoken | undefined;
   readonly cannot: Dialect["cannot"];
+  /** What is written with other statements, as its programmers do. */
+  readonly idioms?: readonly Capability[];
   readonly write: (place: Place, spoken: Spoken) => EmittedFile;
   /** What the user should know of a text that was written. */
   readonly warnings: (program: Program) => readonly string[];
@@ -16,8 +26,9 @@ export interface Emitter<Spoken> {
 
 /** One file, or the step that stands in the way: never a part of a program. */
 export const emitterOf =
-  <Spoken>({ language, spokenBy, cannot, write, warnings }: Emitter<Spoken>): Dialect["emit"] =>
-  (program, robot, worldFromBase = identity()) => {
+  <Spoken>({ language, spokenBy, cannot, idioms = [], write, warnings }: Emitter<Spoken>): Dialect["emit"] =>
+  (taught, robot, worldFromBase = identity()) => {
+    const program = lowered(taught, { idioms, cannot });
     const spoken = spokenBy(robot);
     if (spoken === undefined)
       return {

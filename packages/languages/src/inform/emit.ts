@@ -1,6 +1,7 @@
 import {
   capabilitiesOf,
   everyStep,
+  isCondition,
   type Dialect,
   type Emitted,
   type MoveStep,
@@ -25,12 +26,27 @@ export const CANNOT: Dialect["cannot"] = [
     what: "read-analogue",
     because: "INFORM decides by digital lines; analogue inputs need an option of the controller.",
   },
+  { what: "assign", because: "INFORM computes by one instruction at a time; this release writes none of them." },
+  { what: "while", because: "INFORM computes by one instruction at a time; this release writes none of them." },
+  { what: "expression", because: "INFORM computes by one instruction at a time; this release writes none of them." },
+  {
+    what: "wait-expression",
+    because: "INFORM computes by one instruction at a time; this release writes none of them.",
+  },
+  { what: "late", because: "A wait that ends by its time is not written in INFORM." },
+  { what: "arguments", because: "INFORM computes by one instruction at a time; this release writes none of them." },
   { what: "payload", because: "The load belongs to the tool data of the controller, not to a job." },
 ];
 const HINTS: Readonly<Record<string, string>> = {
   duration: "Give the step a speed instead.",
   timeout: "Take the longest time out, or let another step decide.",
   "read-analogue": "Let the controller compare the value and decide by a digital line.",
+  assign: "Export in another language, or let a line decide.",
+  while: "Export in another language, or let a line decide.",
+  expression: "Export in another language, or let a line decide.",
+  "wait-expression": "Wait for one line.",
+  late: "Take the steps for being late out.",
+  arguments: "Take the arguments out.",
   payload: "Set the load in the tool data and take the step out.",
 };
 const LONGEST_WAIT_S = 655.35;
@@ -228,7 +244,7 @@ function signalsOf(step: Step): string[] {
       return [step.signal];
     case "wait-for":
     case "if":
-      return [step.when.signal];
+      return isCondition(step.when) ? [step.when.signal] : [];
     case "move":
       return step.until === undefined ? [] : [step.until.when.signal];
     default:

@@ -1,7 +1,9 @@
 import {
   compose,
   distance,
+  isCondition,
   type Condition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PalletStep,
@@ -105,7 +107,7 @@ export class JobWriter {
       case "set":
         return add(this.set(step));
       case "wait-for":
-        return add(`WAIT ${this.condition(step.when)}`);
+        return add(`WAIT ${this.asked(step.when)}`);
       case "message":
         return add(`MSG "${commentText(step.text.replace(/"/g, "'"))}"`);
       case "stop":
@@ -122,7 +124,7 @@ export class JobWriter {
       case "if":
         this.block(
           step.id,
-          `IFTHENEXP ${this.condition(step.when)}`,
+          `IFTHENEXP ${this.asked(step.when)}`,
           step.then,
           next,
           step.else === undefined ? "ENDIF" : "",
@@ -132,6 +134,8 @@ export class JobWriter {
       case "pallet":
         return this.pallet(step);
       // Refused before.
+      case "assign":
+      case "while":
       case "payload":
         return;
     }
@@ -194,6 +198,10 @@ export class JobWriter {
     return pulse_s === undefined
       ? `DOUT OT#(${address}) ${to ? "ON" : "OFF"}`
       : `PULSE OT#(${address}) T=${fixed(Math.max(0.01, pulse_s), 2)}`;
+  }
+
+  private asked(when: Predicate): string {
+    return isCondition(when) ? this.condition(when) : "";
   }
 
   private condition(when: Condition, opposite = false): string {
