@@ -11,6 +11,7 @@ interface Bench extends ComputingLines {
 /** A robot that speaks the language, and numbers of its lines. */
 const BENCHES: Readonly<Record<string, Bench>> = {
   krl: { robot: "kuka_kr6_2", inputs: [3, 4], output: 5 },
+  inform: { robot: "yaskawa_gp8", inputs: [3, 4], output: 5, words: { numbers: false } },
   rapid: { robot: "abb_irb120", inputs: [3, 4], output: 5 },
   urscript: { robot: "ur10e", inputs: [3, 4], output: 5, words: { div: false, mod: false } },
   "fanuc-ls": { robot: "fanuc_lrmate200id", inputs: [3, 4], output: 5 },
@@ -22,7 +23,10 @@ const BENCHES: Readonly<Record<string, Bench>> = {
   pacscript: { robot: "denso_vs060", inputs: [3, 4], output: 5, words: { div: false } },
 };
 const PROGRAMS = Number(process.env.TWINCELL_COMPUTING ?? 60);
-const computes = DIALECTS.filter(({ cannot }) => cannot.every(({ what }) => what !== "assign"));
+// The form with pulses is the same writer.
+const computes = DIALECTS.filter(
+  ({ id, cannot }) => id !== "inform-pulse" && cannot.every(({ what }) => what !== "assign"),
+);
 
 describe("programs that compute", () => {
   test("every language that declares it can is tried", () => {

@@ -153,7 +153,7 @@ class Lowered {
     const assigned = Object.entries(given).map(([name, to]): Step => {
       return { id: step.id, type: "assign", variable: names.get(name)!, to };
     });
-    return [...assigned, call];
+    return [...assigned.flatMap(each => this.step(each, undefined)), call];
   }
 
   private wait(step: WaitForStep, names: ReadonlyMap<string, string> | undefined): readonly Step[] {

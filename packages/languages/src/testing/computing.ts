@@ -20,6 +20,8 @@ export interface ComputingLines {
 export interface ComputingWords {
   readonly div?: boolean;
   readonly mod?: boolean;
+  /** Whether it computes with numbers that are not whole. */
+  readonly numbers?: boolean;
   /** Whether a routine can end the program. */
   readonly stopInRoutine?: boolean;
 }
@@ -59,8 +61,6 @@ class Maker {
     total: { type: "int" },
     ready: { type: "bool", initial: true },
     seen: { type: "bool" },
-    gap: { type: "num", unit: "m", initial: 0.125 },
-    share: { type: "num" },
   };
   private readonly robot: Robot;
   private readonly random: Random;
@@ -72,6 +72,9 @@ class Maker {
     this.robot = robot;
     this.random = random;
     this.words = words;
+    if (words.numbers === false) return;
+    this.variables.gap = { type: "num", unit: "m", initial: 0.125 };
+    this.variables.share = { type: "num" };
   }
 
   list(length: number, depth: number): readonly Step[] {
@@ -81,8 +84,9 @@ class Maker {
   routine(): readonly Step[] {
     this.inRoutine = true;
     const steps = this.counted("times", 1, { variable: "times" });
+    const more = this.list(2, 1);
     this.inRoutine = false;
-    return [...steps, ...this.list(2, 1)];
+    return [...steps, ...more];
   }
 
   private id(): string {
@@ -120,7 +124,9 @@ class Maker {
             type: "wait-for",
             when: this.predicate(),
             timeout_s: pick(random, [0.04, 0.1]),
-            ...(random() < 0.7 || (this.inRoutine && this.words.stopInRoutine === false) ? { late: this.list(1, depth + 1) } : {}),
+            ...(random() < 0.7 || (this.inRoutine && this.words.stopInRoutine === false)
+              ? { late: this.list(1, depth + 1) }
+              : {}),
           },
         ];
       case 8:
@@ -177,7 +183,12 @@ class Maker {
   }
 
   private assign(): Step {
-    const variable = pick(this.random, ["count", "ready", "seen", "gap", "share"]);
+    const variable = pick(this.random, [
+      "count",
+      "ready",
+      "seen",
+      ...(this.words.numbers === false ? [] : ["gap", "share"]),
+    ]);
     const type = this.variables[variable]!;
     const to =
       type.type === "bool" ? this.truth(0) : type.type === "int" ? this.whole(0) : this.number(variable === "gap", 0);
@@ -204,6 +215,7 @@ class Maker {
       case 3:
         return { op: "not", of: [deeper()] };
       case 4:
+        if (this.words.numbers === false) return true;
         return {
           op: pick(random, ["<", ">"] as const),
           of: [this.number(true, 1), { value: pick(random, [0.1, 0.2, 0.3]), unit: "m" }],
