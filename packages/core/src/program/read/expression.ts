@@ -28,8 +28,7 @@ export function readExpression(
 ): Expression | undefined {
   const expression = readPart(reader, value, path, what, 1);
   if (expression === undefined) return undefined;
-  let parts = 0;
-  for (const _ of everyPart(expression)) parts++;
+  const parts = Array.from(everyPart(expression)).length;
   if (parts > MOST_PARTS)
     return reader.fault(path, `the expression of ${what} has ${parts} parts; ${MOST_PARTS} at most are read.`);
   const typed = checkType(expression, wanted, scopeOf(around));
