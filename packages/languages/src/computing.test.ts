@@ -1,4 +1,4 @@
-import { everyStep, robotById } from "@twincell/core";
+import { everyStep, expressionOf, robotById, withLists, type Step } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { DIALECTS, proveText, runnableFile } from "./index.ts";
 import { computingProgram, type ComputingLines, type ComputingWords } from "./testing/computing.ts";
@@ -53,4 +53,37 @@ describe("programs that compute", () => {
       expect(kinds).toEqual(new Set(["move", "assign", "set", "wait", "if", "while", "wait-for", "call"]));
     },
   );
+
+  test.each(computes.map(dialect => [dialect.id, dialect] as const))(
+    "%s: a text that counts one round too many or decides the other way is found out",
+    (id, dialect) => {
+      const { robot: name, words, ...lines } = BENCHES[id]!;
+      const robot = robotById(name)!;
+      let found = 0;
+      for (let seed = 1; seed <= 20; seed++) {
+        const program = computingProgram(robot, seed, lines, words);
+        const wrong = {
+          ...program,
+          steps: program.steps.map(changed),
+          routines: { turns: program.routines.turns!.map(changed) },
+        };
+        const emitted = dialect.emit(wrong, robot);
+        if (emitted.kind === "cannot") continue;
+        const proof = proveText(dialect, runnableFile(dialect, emitted.files)!, program, robot);
+        if (proof.kind !== "proven") found++;
+      }
+      // The others have no loop and no decision that is ever come to.
+      expect(found).toBeGreaterThanOrEqual(14);
+    },
+  );
 });
+
+/** Loops compare by <= instead of <, and decisions are turned round. */
+function changed(whole: Step): Step {
+  const step = withLists(whole, list => list.map(changed));
+  if (step.type === "if") return { ...step, when: { expression: { op: "not", of: [expressionOf(step.when)] } } };
+  if (step.type !== "while" || !("expression" in step.when)) return step;
+  const { expression } = step.when;
+  if (typeof expression !== "object" || !("op" in expression) || expression.op !== "<") return step;
+  return { ...step, when: { expression: { ...expression, op: "<=" } } };
+}

@@ -35,8 +35,8 @@ const MOST_FAULTS = 50;
  *
  * Missing `name`, tables (`tools`, `frames`, `groups`, `signals`, `variables`, `parameters`, `pallets`, `routines`) and
  * `blend_m` get their defaults, a pose without `frame` is in "world" and without `tool` of "flange". A key that no
- * contract knows is a fault, because it is usually a spelling mistake that would change the motion; keys that begin with
- * "$", "_" or "x-" are left out without a word. Files of version 1 are lifted as they are.
+ * contract knows is a fault, because it is usually a spelling mistake that would change the motion; keys that begin
+ * with "$", "_" or "x-" are left out without a word. Files of version 1 are lifted as they are.
  *
  * Never throws.
  */
