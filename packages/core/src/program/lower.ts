@@ -18,8 +18,8 @@ interface Lack {
 /**
  * The same program without what a language has no statement for: first values of variables and arguments become
  * assignments, a wait with a limit a loop that counts, a wait for an expression a loop that looks, and what is yes or
- * no is set on both sides of a decision. Steps made of one step keep its id. A program that uses none of it is returned as
- * it is.
+ * no is set on both sides of a decision. Steps made of one step keep its id. A program that uses none of it is
+ * returned as it is.
  */
 export function lowered(
   program: Program,
