@@ -189,7 +189,7 @@ export const shellWords = {
     waitFor: "Add: wait for a signal",
     comment: "Add: comment",
     repeat: "Add: loop around the step",
-    while: "Add: loop while …",
+    while: "Add: while …",
     if: "Add: decision if …",
     assign: "Add: assign a variable",
     call: "Add: call a routine",
