@@ -8,7 +8,7 @@ import { createHash } from "node:crypto";
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, extname, join, relative } from "node:path";
 import { LIBRARY, type Dialect, type Robot } from "@twincell/core";
-import { DIALECTS, EXAMPLE_PULSES, executeText, informDialect, joinFiles } from "@twincell/languages";
+import { DIALECTS, executeText, informDialect, joinFiles } from "@twincell/languages";
 import { textFileOf, type TextFile } from "@twincell/project";
 
 /** Which dialect the words of a file belong to, its ending being shared by several. */
@@ -112,7 +112,7 @@ function countAll(root: string): readonly Outcome[] {
 
 function dialectFor(id: string): Dialect {
   // Pulses per degree come from the cell's own controller; the example's stand in for them here.
-  if (id === "inform") return informDialect({ pulses: EXAMPLE_PULSES });
+  if (id === "inform") return informDialect({ examplePulses: true });
   return DIALECTS.find(dialect => dialect.id === id)!;
 }
 

@@ -13,3 +13,4 @@ export * from "./six-numbers.ts";
 export * from "./expressions.ts";
 export * from "./emitter.ts";
 export * from "./line-ranges.ts";
+export * from "./shown-axes.ts";

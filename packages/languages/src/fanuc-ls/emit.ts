@@ -8,9 +8,10 @@ import {
   type Pose,
   type Program,
   type Robot,
+  sectionForLanguage,
 } from "@twincell/core";
 import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { GRIPPER_OUTPUT, pendantConvention } from "./robots.ts";
+import { GRIPPER_OUTPUT } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -35,7 +36,7 @@ export const FASTEST_MMPS = 2000;
 /** The programs, one file each, or the step that stands in the way: never a part of a program. */
 export function emitFanucLs(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const convention = pendantConvention(robot);
+  const convention = sectionForLanguage(robot, "fanuc-ls");
   if (convention === undefined) {
     return {
       kind: "cannot",

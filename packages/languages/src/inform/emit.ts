@@ -10,8 +10,10 @@ import {
   type Program,
   type Robot,
   type Step,
+  sectionForLanguage,
+  type VendorSection,
 } from "@twincell/core";
-import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts";
+import type { PulseData } from "./pulses.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
@@ -68,7 +70,7 @@ function jobs(
   pulses: PulseData | undefined,
 ): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const convention = axisConvention(robot);
+  const convention = sectionForLanguage(robot, "inform");
   if (convention === undefined) {
     return {
       kind: "cannot",
@@ -113,7 +115,7 @@ function written(
   program: Program,
   robot: Robot,
   worldFromBase: Pose<"world", "base">,
-  convention: AxisConvention,
+  convention: VendorSection,
   pulses: PulseData | undefined,
 ): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
   const steps = [...everyStep(program)];

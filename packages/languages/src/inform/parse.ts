@@ -2,7 +2,7 @@ import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/cor
 import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { openInform, type Run } from "./interpret.ts";
-import type { PulseData } from "./robots.ts";
+import type { PulseData } from "./pulses.ts";
 
 /**
  * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed

@@ -1,6 +1,7 @@
 import {
   everyStep,
   lowered,
+  sectionForLanguage,
   type Capability,
   type Dialect,
   type Emitted,
@@ -9,7 +10,6 @@ import {
   type Robot,
 } from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { supportedBy } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -30,8 +30,8 @@ export const CANNOT: Dialect["cannot"] = [
 /** One file with the program and its routines, or the step that stands in the way: never a part of a program. */
 export function emitAs(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const spoken = supportedBy(robot);
-  if (spoken === undefined) {
+  const section = sectionForLanguage(robot, "kawasaki-as");
+  if (section === undefined) {
     return {
       kind: "cannot",
       step: "",
@@ -42,7 +42,7 @@ export function emitAs(taught: Program, robot: Robot, worldFromBase: Pose<"world
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), spoken);
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), section);
     const file = writer.write();
     return { kind: "emitted", files: [file], warnings: [...tellsRobot(program, robot), ...warnings(program)] };
   });

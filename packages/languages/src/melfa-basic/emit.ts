@@ -1,6 +1,5 @@
 import { everyStep, type Capability, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
-import { supportedBy } from "./robots.ts";
 import { MelfaProgram } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -24,10 +23,10 @@ export const CANNOT: Dialect["cannot"] = [
  */
 export const emitMelfa = emitterOf({
   language: "MELFA-BASIC",
-  spokenBy: supportedBy,
+  id: "melfa-basic",
   cannot: CANNOT,
   idioms: IDIOMS,
-  write: (place, spoken) => new MelfaProgram(place, spoken).write(),
+  write: (place, section) => new MelfaProgram(place, section).write(),
   warnings,
 });
 

@@ -2,6 +2,7 @@ import {
   everyStep,
   lowered,
   type Capability,
+  sectionForLanguage,
   type Dialect,
   type Emitted,
   type Pose,
@@ -9,7 +10,7 @@ import {
   type Robot,
 } from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { GRIPPER_SIGNAL, configurationOf } from "./robots.ts";
+import { GRIPPER_SIGNAL } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -23,8 +24,8 @@ const MANY_MOVES = 5_000;
 /** The module and the list that loads it, or the step that stands in the way: never a part of a program. */
 export function emitRapid(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const configuration = configurationOf(robot);
-  if (configuration === undefined) {
+  const section = sectionForLanguage(robot, "rapid");
+  if (section === undefined) {
     return {
       kind: "cannot",
       step: "",
@@ -35,7 +36,7 @@ export function emitRapid(taught: Program, robot: Robot, worldFromBase: Pose<"wo
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), configuration);
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), section);
     const files = writer.write();
     let moves = 0;
     let hasGripper = false;

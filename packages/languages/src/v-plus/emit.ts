@@ -9,8 +9,8 @@ import {
   type Program,
   type Robot,
   type Step,
+  sectionForLanguage,
 } from "@twincell/core";
-import { jointConvention } from "./robots.ts";
 import { VPLUS_LINES, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
 import { MAX_POINTS, pointList } from "./write/point-list.ts";
 import { configurationsOf, type Place } from "./write/postures.ts";
@@ -37,7 +37,7 @@ const MAX_TIMES = 2 ** 24;
  */
 export function emitVPlus(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const convention = jointConvention(robot);
+  const convention = sectionForLanguage(robot, "v-plus");
   if (convention === undefined) {
     return {
       kind: "cannot",

@@ -2,6 +2,7 @@ import {
   everyStep,
   lowered,
   type Capability,
+  sectionForLanguage,
   type Dialect,
   type Emitted,
   type Pose,
@@ -9,7 +10,7 @@ import {
   type Robot,
 } from "@twincell/core";
 import { Place, linesLookedAt, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { VALVE, speaksVal3 } from "./robots.ts";
+import { VALVE } from "./robots.ts";
 import { ApplicationWriter } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -25,7 +26,8 @@ export const CANNOT: Dialect["cannot"] = [
 /** The files of an application, or the step that stands in the way: never a part of a program. */
 export function emitVal3(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  if (!speaksVal3(robot))
+  const section = sectionForLanguage(robot, "val3");
+  if (section === undefined)
     return {
       kind: "cannot",
       step: "",
@@ -35,7 +37,7 @@ export function emitVal3(taught: Program, robot: Robot, worldFromBase: Pose<"wor
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const files = new ApplicationWriter(new Place(program, robot, worldFromBase)).write();
+    const files = new ApplicationWriter(new Place(program, robot, worldFromBase), section).write();
     const steps = [...everyStep(program)];
     const title = files.at(-1)!.name.replace(/\.pjx$/, "");
     const usesLines = steps.some(step => step.type === "set" || [...linesLookedAt(step)].length > 0);

@@ -447,7 +447,7 @@ export class Machine extends BlockMachine<Value> {
         : {};
     if (typeof value === "object" && !isList(value) && value.kind === "joint") {
       if (word !== "movej") throw new TextError(goal, "a point", `${word} goes to a point.`);
-      const q = value.deg.map(angle => (angle / 180) * Math.PI);
+      const q = this.arm.axes.radians(value.deg);
       this.arm.joints_rad = q;
       return { ...common, path: "ptp", target: { q, tool: name } };
     }

@@ -13,8 +13,10 @@ import {
   type Pose,
   type SignalLine,
   type Step,
+  type VendorSection,
   type Target,
   type Vector3,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -30,6 +32,8 @@ import {
   pitchTerm,
   remark,
   type ExpressionWords,
+  type Place,
+  shownAxes,
 } from "../../emitter/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
@@ -52,6 +56,12 @@ export class ApplicationWriter extends BlockStepWriter {
   private tool: string | undefined;
   /** Whether motions may be under way that what follows must not overtake. */
   private moving = false;
+  private readonly section: VendorSection;
+
+  constructor(place: Place, section: VendorSection) {
+    super(place);
+    this.section = section;
+  }
 
   write(): readonly EmittedFile[] {
     const { program } = this.place;
@@ -408,7 +418,9 @@ export class ApplicationWriter extends BlockStepWriter {
     this.moving = true;
     const rest = `${this.toolName(tool, id)},${this.description(step, next)}`;
     if (isAngles)
-      return add(`movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(target.q), id)},${rest})`);
+      return add(
+        `movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(shownAxes(this.section, target.q)), id)},${rest})`,
+      );
     const goal = this.point(step, target, frame, configuration, "");
     const word = path === "ptp" ? "movej" : path === "lin" ? "movel" : "movec";
     if (path !== "circ") return add(`${word}(${goal},${rest})`);
@@ -451,6 +463,7 @@ export class ApplicationWriter extends BlockStepWriter {
           );
     const [shoulder, elbow, wrist] = configWords(
       configuration === undefined ? undefined : branchOf(this.place.robot, configuration),
+      wristAboveZero(this.place.robot),
     );
     const father = frame === "world" ? "world" : this.frame(frame, step.id);
     return this.data.add(
