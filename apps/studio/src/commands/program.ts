@@ -12,7 +12,11 @@ import { notify } from "../stores/notices.ts";
 import {
   addComment,
   addGripper,
+  addAssign,
+  addCall,
+  addIf,
   addRepeat,
+  addWhile,
   addSet,
   addWait,
   addWaitFor,
@@ -165,6 +169,42 @@ export const programCommands = (): readonly Command[] => [
     can: hasProgram,
     run: () => {
       addRepeat();
+    },
+  },
+  {
+    id: "program.while",
+    group: "program",
+    words: words.commands.while,
+    can: hasProgram,
+    run: () => {
+      addWhile();
+    },
+  },
+  {
+    id: "program.if",
+    group: "program",
+    words: words.commands.if,
+    can: hasProgram,
+    run: () => {
+      addIf();
+    },
+  },
+  {
+    id: "program.assign",
+    group: "program",
+    words: words.commands.assign,
+    can: hasProgram,
+    run: () => {
+      addAssign();
+    },
+  },
+  {
+    id: "program.call",
+    group: "program",
+    words: words.commands.call,
+    can: () => Object.keys(theProgram()?.routines ?? {}).length > 0,
+    run: () => {
+      addCall();
     },
   },
   {
