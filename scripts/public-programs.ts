@@ -56,7 +56,21 @@ const ROBOTS: Readonly<Record<string, string>> = {
 /** Other files of the folder that are loaded with a program at most. */
 const MOST_SIBLINGS = 60;
 const MOST_BYTES = 2_000_000;
+/** Files that hold data alone. */
+const DATA = /\.(?:dat|sys|dtx|pts|va)$/i;
+/** The files of a folder that a dialect reads: many programs lie in one. */
+const folders = new Map<string, readonly TextFile[]>();
 
+/** Files of a dialect that are counted of one repository at most. */
+const MOST_OF_ONE = 100;
+
+interface Candidate {
+  readonly dialect: string;
+  readonly repository: string;
+  readonly path: string;
+  readonly sha256: string;
+  readonly file: TextFile;
+}
 interface Outcome {
   readonly dialect: string;
   readonly repository: string;
@@ -86,6 +100,7 @@ if (rest.includes("--write")) write(outcomes);
 function countAll(root: string): readonly Outcome[] {
   const seen = new Set<string>();
   const all: Outcome[] = [];
+  const chosen: Candidate[] = [];
   for (const path of filesIn(root)) {
     const known = SIGNS.filter(([, endings]) => endings.test(path));
     if (known.length === 0 || statSync(path).size > MOST_BYTES) continue;
@@ -97,17 +112,32 @@ function countAll(root: string): readonly Outcome[] {
     if (sign === undefined || !MOTION[sign[0]]!.test(file.text)) continue;
     seen.add(sha256);
     const [repository = "", ...parts] = relative(root, path).split("/");
-    const half = Number.parseInt(sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count";
-    all.push({
-      dialect: sign[0],
-      repository: repository.replace("+", "/"),
-      path: parts.join("/"),
-      sha256,
-      half,
-      ...opened(dialectFor(sign[0]), path, file),
-    });
+    chosen.push({ dialect: sign[0], repository: repository.replace("+", "/"), path: parts.join("/"), sha256, file });
+  }
+  for (const { file, ...each } of evenly(chosen)) {
+    const half = Number.parseInt(each.sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count";
+    if (faultsOf !== undefined && half === "count" && !rest.includes("--write")) continue;
+    const path = join(root, each.repository.replace("/", "+"), each.path);
+    all.push({ ...each, half, ...opened(dialectFor(each.dialect), path, file) });
   }
   return all;
+}
+
+/**
+ * At most so many files of a dialect from one repository, the first by hash: the backups of one plant hold thousands of
+ * files that are alike.
+ */
+function evenly(candidates: readonly Candidate[]): readonly Candidate[] {
+  const only = faultsOf === undefined || faultsOf === "" ? undefined : faultsOf;
+  const taken = new Map<string, number>();
+  const kept = new Set<Candidate>();
+  for (const each of candidates.toSorted((a, b) => (a.sha256 < b.sha256 ? -1 : 1))) {
+    const key = `${each.dialect} ${each.repository}`;
+    const count = (taken.get(key) ?? 0) + 1;
+    taken.set(key, count);
+    if (count <= MOST_OF_ONE && (only === undefined || each.dialect === only)) kept.add(each);
+  }
+  return candidates.filter(each => kept.has(each));
 }
 
 function dialectFor(id: string): Dialect {
@@ -148,11 +178,32 @@ function tryOpen(
     : { opens: false, executes: false, fault: `line ${executed.faults[0]?.line}: ${executed.faults[0]?.sentence}` };
 }
 
-function siblingsOf(dialect: Dialect, path: string, { name }: TextFile): readonly TextFile[] {
-  return readdirSync(dirname(path))
-    .filter(each => each !== name && dialect.extensions.some(end => extname(each).toLowerCase() === end.toLowerCase()))
-    .slice(0, MOST_SIBLINGS)
-    .map(each => textFileOf(each, readFileSync(join(dirname(path), each))));
+/** The files of the folder that a program names, those that they name, and the folder's files of data. */
+function siblingsOf(dialect: Dialect, path: string, file: TextFile): readonly TextFile[] {
+  const others = folderOf(dirname(path), dialect).filter(each => each.name !== file.name);
+  const found: TextFile[] = others.filter(({ name }) => DATA.test(name));
+  const waiting = [file];
+  for (let next = waiting.pop(); next !== undefined && found.length < MOST_SIBLINGS; next = waiting.pop()) {
+    const words = new Set(next.text.toLowerCase().match(/[\w-]+/g));
+    for (const each of others)
+      if (words.has(stemOf(each.name)) && !found.includes(each) && found.length < MOST_SIBLINGS) {
+        found.push(each);
+        waiting.push(each);
+      }
+  }
+  return found;
+}
+
+function folderOf(path: string, dialect: Dialect): readonly TextFile[] {
+  const key = `${dialect.id} ${path}`;
+  const known = folders.get(key);
+  if (known !== undefined) return known;
+  const files = readdirSync(path)
+    .filter(each => dialect.extensions.some(end => extname(each).toLowerCase() === end.toLowerCase()))
+    .filter(each => statSync(join(path, each)).isFile() && statSync(join(path, each)).size <= MOST_BYTES)
+    .map(each => textFileOf(each, readFileSync(join(path, each))));
+  folders.set(key, files);
+  return files;
 }
 
 function stemOf(name: string): string {

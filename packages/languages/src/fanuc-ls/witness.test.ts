@@ -354,8 +354,9 @@ describe("executing TP", () => {
       line: 8,
       sentence: "P[7] is not in the list of positions.",
     });
-    expect(faultOf(listing("A", ["CALL NOBODY"]))).toMatchObject({
-      sentence: "The program NOBODY is not in the text.",
+    expect(fanucLs.parse(listing("A", ["CALL NOBODY"]), robot)).toMatchObject({
+      kind: "not-understood",
+      faults: [{ sentence: "The program NOBODY is not in the text." }],
     });
     expect(faultOf(listing("A", ["WEAVE SINE[1]"]))).toMatchObject({
       line: 8,
@@ -363,7 +364,7 @@ describe("executing TP", () => {
       sentence: '"WEAVE" is no statement of TP that is executed here.',
     });
     expect(
-      faultOf(
+      fanucLs.parse(
         listing(
           "A",
           ["J P[1] 10% FINE"],
@@ -371,8 +372,9 @@ describe("executing TP", () => {
             "P[1]{\n   GP1:\n\tUF : 0, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX = ******** mm, Y = ******** mm, Z = ******** mm,\n\tW = ******** deg, P = ******** deg, R = ******** deg\n};",
           ],
         ),
+        robot,
       ),
-    ).toMatchObject({ sentence: "The position was never taught: it is ********." });
+    ).toMatchObject({ faults: [{ sentence: "The position was never taught: it is ********." }] });
   });
 });
 

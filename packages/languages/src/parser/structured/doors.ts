@@ -12,6 +12,7 @@ import {
 } from "@twincell/core";
 import type { CheckedReader, ReadSteps } from "../../reading/checked-import.ts";
 import { TextError, textFault } from "../faults.ts";
+import { Notices } from "../notices.ts";
 import { dryRun } from "../rehearse.ts";
 import { createDeclaredCell, type DeclaredCell } from "../declared-cell.ts";
 import { RunsOnTheSpot } from "./machine.ts";
@@ -22,8 +23,11 @@ import type { Block } from "./tree.ts";
 /** A text that was read, for one robot: its title, and how it is executed and written down. */
 export interface Script<M> {
   readonly title: string;
-  /** A machine before its first statement. It adds the tools, frames and lines that it meets to `declared`. */
-  readonly machine: (declared: DeclaredCell, signals?: Signals) => M;
+  /**
+   * A machine before its first statement. It adds the tools, frames and lines that it meets to `declared`. With
+   * `notices` it may go on without what only the controller knows, and says so there; without, it refuses.
+   */
+  readonly machine: (declared: DeclaredCell, signals?: Signals, notices?: Notices) => M;
   /** The one that writes the program down, where that takes another. */
   readonly writer?: (declared: DeclaredCell) => M;
   readonly run: (machine: M) => Generator<Executed, unknown>;
@@ -99,28 +103,28 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
       return refusal(cause.fault);
     }
   }
-  function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
+  function executable(script: Script<M>, kept: readonly TextFault[]): Extract<Interpreted, { kind: "ready" }> {
     const declared = createDeclaredCell();
+    const notices = new Notices(kept);
     const run = function* (signals?: Signals): Generator<Executed, void> {
       const asked = new AskedSignals(signals);
       try {
-        yield* script.run(script.machine(declared, asked));
+        yield* script.run(script.machine(declared, asked, notices));
       } catch (cause) {
         // What turns in a circle while inputs are looked at goes on when they change.
         if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
         throw cause;
       }
     };
-    return { kind: "ready", run, context: declared };
+    return { kind: "ready", run, context: declared, notExecuted: notices.faults };
   }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
-      const ready = executable(opened.script);
+      const ready = executable(opened.script, opened.kept);
       const fault = dryRun({ [Symbol.iterator]: () => ready.run() });
-      if (fault !== undefined) return refusal(fault);
-      return opened.kept.length === 0 ? ready : { ...ready, notExecuted: opened.kept };
+      return fault === undefined ? ready : refusal(fault);
     },
     parse(text, robot, worldFromBase = identity()): ReadSteps {
       const opened = open(text, robot, worldFromBase);
@@ -134,7 +138,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         const { groups, routines, pallets } = outline;
         return {
           kind: "parsed",
-          executable: () => executable(opened.script),
+          executable: () => executable(opened.script, opened.kept),
           warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...declared, groups, pallets, routines, steps },
         };
