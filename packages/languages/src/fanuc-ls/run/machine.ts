@@ -617,7 +617,13 @@ export class Machine extends RegisterMachine {
     const target = inPlace === undefined ? plain : { ...plain, ...inPlace };
     if (how === "on-the-way") return target;
     const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), config);
-    if (how === "by-joints" && !reached.fits)
+    if (how === "by-joints" && !reached.fits && this.notices !== undefined)
+      this.notices.add(
+        at,
+        "a configuration that reaches the position",
+        `Line ${at.line}: this robot does not reach the position in its configuration; the nearest posture is taken.`,
+      );
+    else if (how === "by-joints" && !reached.fits)
       throw new TextError(
         at,
         "a configuration that reaches the position",
