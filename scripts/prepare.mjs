@@ -1,5 +1,5 @@
 // What both commands of the README need first: the packages of the lock file, and a Node that runs TypeScript.
-// Runs on any Node from 20.19, without any package installed.
+// Runs on any Node from 20.19, without any package installed; what it starts runs on the Node 24 of the lock file.
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, statSync, mkdirSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
@@ -19,13 +19,18 @@ const lockHash = () =>
 export function install() {
   const [major, minor] = process.versions.node.split(".").map(Number);
   if (major < 20 || (major === 20 && minor < 19)) {
-    console.error(`Twincell needs Node 20.19 or newer; this is ${process.versions.node}.`);
+    console.error(`Twincell needs Node 24; this is ${process.versions.node}. Install Node 24 or newer.`);
     process.exit(2);
   }
   const wanted = lockHash();
   if (existsSync(node) && existsSync(stamp) && readFileSync(stamp, "utf8") === wanted) return;
   console.log("Installing packages (once) …");
-  run("npm", ["ci", "--no-audit", "--no-fund"]);
+  // npm would name each package that wants a newer Node; one sentence says it for all of them.
+  if (major < 24)
+    console.log(
+      `This is Node ${process.versions.node}: the Node 24 that is installed with the packages is used instead.`,
+    );
+  run("npm", ["ci", "--no-audit", "--no-fund", ...(major < 24 ? ["--loglevel=error"] : [])]);
   if (!existsSync(node)) {
     console.error(
       "The packages are installed but node_modules/node/bin/node is missing: npm was told to skip install scripts. Run `npm ci --ignore-scripts=false`.",

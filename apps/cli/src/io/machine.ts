@@ -23,7 +23,7 @@ export interface Diagnosis {
   readonly sentence: string;
 }
 
-const LEAST_NODE = [22, 18] as const;
+const LEAST_NODE = [24, 0] as const;
 const LEAST_PYTHON = [3, 10] as const;
 const LEAST_BYTES = 1e9;
 

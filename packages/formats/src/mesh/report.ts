@@ -1,8 +1,20 @@
 import { censusOfEdges, meshBounds, weldMesh, type TriangleMesh, type Vector3 } from "@twincell/core";
 
+/** What a mesh was read from, as reports name it. */
+export const MESH_FORMATS = [
+  "STL (binary)",
+  "STL (ASCII)",
+  "OBJ",
+  "PLY (binary)",
+  "PLY (ASCII)",
+  "COLLADA",
+  "glTF",
+  "GLB",
+] as const;
+
 /** What was read, what was mended, and what a person should know. */
 export interface MeshReport {
-  readonly format: "STL (binary)" | "STL (ASCII)" | "OBJ" | "PLY (binary)" | "PLY (ASCII)" | "COLLADA" | "glTF" | "GLB";
+  readonly format: (typeof MESH_FORMATS)[number];
   /** Triangles in the file, before any were removed. */
   readonly triangles: number;
   readonly vertices: number;
