@@ -12,6 +12,7 @@ import {
   type Step,
   type TextFault,
 } from "@twincell/core";
+import { WaitsOutside } from "../parser/index.ts";
 
 export interface ExecuteOptions {
   /** What inputs say from the start; others are off. */
@@ -84,17 +85,19 @@ export function executeText(
     }
   } catch (cause) {
     if (!(cause instanceof Fault)) throw cause;
-    return {
-      kind: "not-understood",
-      faults: [
-        {
-          line,
-          column: 1,
-          expected: "a statement that can be executed",
-          sentence: `${cause.message} ${cause.hint}`.trim(),
-        },
-      ],
-    };
+    if (!(cause instanceof WaitsOutside))
+      return {
+        kind: "not-understood",
+        faults: [
+          {
+            line,
+            column: 1,
+            expected: "a statement that can be executed",
+            sentence: `${cause.message} ${cause.hint}`.trim(),
+          },
+        ],
+      };
+    cut = `Line ${line}: the text looks at its inputs and goes on when they change.`;
   }
   return {
     kind: "executed",

@@ -12,7 +12,7 @@ export const spel: Dialect = skippingDialect({
   id: "spel",
   brand: "Epson",
   name: "SPEL+",
-  extensions: [".prg"],
+  extensions: [".prg", ".pts"],
   maturity: "experimental",
   cannot: CANNOT,
   resolution: { ratio: 0.00501, leastRatio: 0.01, mostMps: 2 },

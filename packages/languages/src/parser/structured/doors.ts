@@ -53,7 +53,11 @@ export const routineScript = <M extends { main(): Generator<Executed, unknown>; 
 export interface BlockLanguage<S, M> {
   readonly name: string;
   readonly speaks: (robot: Robot) => boolean;
-  readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
+  /**
+   * With `asText` the text is only executed, not kept as steps: statements that do not move the robot may be left out
+   * and named.
+   */
+  readonly read: (text: string, asText?: boolean) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
   /**
    * What of the text is kept and shown but not executed. Throws a TextError where that could change how the robot
@@ -84,6 +88,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
     text: string,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
+    asText: boolean,
   ): { readonly kind: "open"; readonly script: Script<M>; readonly kept: readonly TextFault[] } | NotUnderstood {
     if (!speaks(robot))
       return refusal(
@@ -93,7 +98,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
           `The controller of the ${robot.name} does not speak ${name}.`,
         ),
       );
-    const answer = read(text);
+    const answer = read(text, asText);
     if (answer.kind === "not-understood") return answer;
     try {
       const kept = notExecuted?.(answer.source) ?? [];
@@ -120,14 +125,14 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
   }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
-      const opened = open(text, robot, worldFromBase);
+      const opened = open(text, robot, worldFromBase, true);
       if (opened.kind === "not-understood") return opened;
       const ready = executable(opened.script, opened.kept);
       const fault = dryRun({ [Symbol.iterator]: () => ready.run() });
       return fault === undefined ? ready : refusal(fault);
     },
     parse(text, robot, worldFromBase = identity()): ReadSteps {
-      const opened = open(text, robot, worldFromBase);
+      const opened = open(text, robot, worldFromBase, false);
       if (opened.kind === "not-understood") return opened;
       const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script;
       const declared = createDeclaredCell();
