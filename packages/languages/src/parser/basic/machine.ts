@@ -247,17 +247,17 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   private pendingJump: { readonly label: string; readonly at: TextPlace } | undefined;
 
   /** Blocks inside blocks that are executed. */
-  private level = 0;
+  private depthOfBlocks = 0;
 
   override *block(block: Block): Generator<Executed, Flow> {
-    this.level++;
+    this.depthOfBlocks++;
     try {
       for (let i = 0; i < block.length; i++) {
         const flow = yield* this.statement(block[i]!);
         if (this.pendingJump !== undefined) {
           const { label } = this.pendingJump;
           const to = block.findIndex(each => labelOf(each) === label);
-          if (to < 0 && this.level === 1) throw this.unreached();
+          if (to < 0 && this.depthOfBlocks === 1) throw this.unreached();
           if (to < 0) return "break";
           this.pendingJump = undefined;
           i = to;
@@ -267,7 +267,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
       }
       return "next";
     } finally {
-      this.level--;
+      this.depthOfBlocks--;
     }
   }
 
