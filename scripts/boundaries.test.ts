@@ -74,7 +74,7 @@ test.each([
 
 test("a planted DOM use in a package does not compile", () => {
   const path = plant("packages/formats/src", "export const y = document.title;\n");
-  const run = spawnSync(process.execPath, ["node_modules/typescript/bin/tsc", "-p", "packages/formats"], {
+  const run = spawnSync(process.execPath, ["node_modules/typescript7/bin/tsc", "-p", "packages/formats"], {
     cwd: root,
     encoding: "utf8",
   });

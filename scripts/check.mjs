@@ -37,7 +37,7 @@ const stages = [
   ...[...new Set(projects)]
     .map(place => `${place}/tsconfig.json`)
     .filter(project => existsSync(root + project))
-    .map(project => [`types of ${project}`, ["node_modules/typescript/bin/tsc", "-p", project]]),
+    .map(project => [`types of ${project}`, ["node_modules/typescript7/bin/tsc", "-p", project]]),
   // Tests beside what changed; what imports it from afar is npm test's.
   ["tests", ["node_modules/vitest/vitest.mjs", "run", "--project", "quick", "--passWithNoTests", ...besides]],
 ];

@@ -11,7 +11,7 @@ const projects = ["packages", "apps"]
 
 let bad = 0;
 for (const project of projects) {
-  const run = spawnSync(process.execPath, ["node_modules/typescript/bin/tsc", "-p", project], {
+  const run = spawnSync(process.execPath, ["node_modules/typescript7/bin/tsc", "-p", project], {
     cwd: root,
     stdio: "inherit",
   });

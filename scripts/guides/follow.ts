@@ -49,7 +49,7 @@ export function followGuide(guideFile: string, packageFolder: string): Followed 
     return done.status === 0 ? "" : `${done.stdout}${done.stderr}`;
   };
   return {
-    compile: () => run("typescript/bin/tsc", "-p", packageFolder, "--noEmit", "--incremental", "false"),
+    compile: () => run("typescript7/bin/tsc", "-p", packageFolder, "--noEmit", "--incremental", "false"),
     test: () => run("vitest/vitest.mjs", "run", "--root", copy, ...tests),
     remove: () => {
       rmSync(copy, { recursive: true, force: true });

@@ -17,6 +17,16 @@ describe.each([
   });
 });
 
+describe("docs/add-a-language.md, followed in a copy of apps/studio", () => {
+  const followed = followGuide("docs/add-a-language.md", "apps/studio");
+  afterAll(() => {
+    followed.remove();
+  });
+  test("the test that it writes passes", { timeout: 120_000 }, () => {
+    expect(followed.test()).toBe("");
+  });
+});
+
 test("only labelled blocks are carried out", () => {
   expect(blocksOf("```ts a.ts\nx\n```\n```ts\ny\n```\n")).toEqual([{ kind: "ts", path: "a.ts", text: "x\n" }]);
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { accessCode, clientOf } from "./access.ts";
+import { accessCode, askForCode, clientOf } from "./access.ts";
 
 test("twenty wrong codes of one client are followed by a pause of a minute, each further one by twice the pause up to an hour; who has the cookie and every other client stay in", () => {
   let now_s = 100;
@@ -27,4 +27,10 @@ test("a client is its address, of IPv6 its network", () => {
   expect(clientOf("2001:db8:1:2:aaaa::1")).toBe(clientOf("2001:db8:1:2:bbbb::9"));
   expect(clientOf("fe80::1")).toBe(clientOf("fe80::2"));
   expect(clientOf("2001:db8:1:3:aaaa::1")).not.toBe(clientOf("2001:db8:1:2:aaaa::1"));
+});
+
+test("the page that asks for the code speaks the first language of the browser that it is written in, else English", () => {
+  expect(askForCode("fr;q=0.9,de-AT;q=0.8,en;q=0.7")).toMatch(/<html lang="de">.*Die sechs Ziffern/s);
+  expect(askForCode("fr,xx")).toMatch(/<html lang="en">.*Type the six digits/s);
+  expect(askForCode()).toContain('<html lang="en">');
 });

@@ -61,6 +61,23 @@ export function accessCode(now_s: () => number): AccessCode {
   };
 }
 
-export const askForCode = `<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1"><title>Twincell</title>
+/** The one page that stands before the studio and its catalogues: English first, a language a line. */
+const ASKING = {
+  en: { ask: "Type the six digits shown where Twincell was started.", open: "Open the studio" },
+  de: { ask: "Die sechs Ziffern eingeben, die dort stehen, wo Twincell gestartet wurde.", open: "Studio öffnen" },
+};
+const isAsked = (language: string): language is keyof typeof ASKING => Object.hasOwn(ASKING, language);
+
+/**
+ * The page that asks for the code, in the first language of the browser that it is written in.
+ *
+ * @param accepted the Accept-Language header of the request: "de-AT,de;q=0.9,en;q=0.8"
+ */
+export function askForCode(accepted = ""): string {
+  const wished = accepted.split(",").map(each => each.trim().slice(0, 2).toLowerCase());
+  const language = wished.find(isAsked) ?? "en";
+  const { ask, open } = ASKING[language];
+  return `<!doctype html><html lang="${language}"><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1"><title>Twincell</title>
 <style>body{font:16px system-ui;background:#101315;color:#e8edf0;display:grid;place-items:center;min-height:100vh;margin:0}form{display:grid;gap:12px;width:min(320px,86vw)}input,button{font:inherit;height:48px;border-radius:8px;border:1px solid #2b3338;background:#161a1d;color:inherit;padding:0 14px}input{letter-spacing:.3em;text-align:center}button{background:#3fb8b3;color:#04211f;border:0;font-weight:600}</style>
-<form><label for="code">Type the six digits shown where Twincell was started.</label><input id="code" name="code" inputmode="numeric" autocomplete="one-time-code" maxlength="6" autofocus><button>Open the studio</button></form></html>`;
+<form><label for="code">${ask}</label><input id="code" name="code" inputmode="numeric" autocomplete="one-time-code" maxlength="6" autofocus><button>${open}</button></form></html>`;
+}

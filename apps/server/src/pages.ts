@@ -94,7 +94,7 @@ export function studioListener(
         return;
       }
       if (entry.kind === "ask") {
-        say(401, askForCode, { "content-type": "text/html; charset=utf-8" });
+        say(401, askForCode(request.headers["accept-language"]), { "content-type": "text/html; charset=utf-8" });
         return;
       }
       if (entry.kind === "welcome-with-cookie") {

@@ -3,6 +3,7 @@ import { createRoot } from "react-dom/client";
 import { createClient } from "@twincell/protocol";
 import { createVirtualPendantLink, type VirtualPendantLink } from "./virtual-pendant/link.ts";
 import { PendantPage } from "./virtual-pendant/PendantPage.tsx";
+import { say, words } from "./messages/index.ts";
 import "./tokens.css";
 import "./app.css";
 
@@ -10,6 +11,7 @@ import "./app.css";
  * The pendant of one virtual controller on a page of its own. Whoever served the page is its host: `twincell virtual`,
  * or a server with stations, one of which `?station=` names.
  */
+document.title = `${words.cabinet.title} · ${words.app.name}`;
 const wanted = new URL(location.href).searchParams.get("station");
 const root = createRoot(document.getElementById("root")!);
 const address = new URL("/stations", location.href);
@@ -48,7 +50,7 @@ const client = createClient(
         break;
       case "fault":
         link?.gone();
-        show(message.sentence);
+        show(say(message.sentence));
         break;
       default:
     }

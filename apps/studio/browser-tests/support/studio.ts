@@ -35,6 +35,8 @@ export interface OpenOptions {
   readonly width?: number;
   readonly height?: number;
   readonly theme?: "dark" | "light";
+  /** The language that the browser prefers: "de-AT". */
+  readonly locale?: string;
   readonly touch?: boolean;
   /** Installs an emulated headset before the page starts: a Quest 3, or the one that is named. */
   readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro";
@@ -87,6 +89,7 @@ export class Studio {
       isMobile: options.touch ?? false,
       acceptDownloads: true,
       colorScheme: options.theme ?? "dark",
+      locale: options.locale ?? "en-US",
     });
     const page = await context.newPage();
     const problems: string[] = [];

@@ -1,10 +1,11 @@
 import { openCamera } from "../runtime/video/camera.ts";
 import { startSender, type Sender } from "../runtime/video/sender.ts";
-import { videoWords } from "../messages/en/video.ts";
+import { say, words as all } from "../messages/index.ts";
 import "../tokens.css";
 import "./camera-page.css";
 
-const { camera: words, noSafety } = videoWords;
+const { camera: words, noSafety } = all.video;
+document.title = `${words.which} · ${all.app.name}`;
 const root = document.getElementById("root")!;
 
 /** One element with its words. */
@@ -45,7 +46,7 @@ let sender: Sender | null = null;
 let timer = 0;
 let watchers = 0;
 let line = "";
-function say(): void {
+function showState(): void {
   const video = sender?.video;
   const count = sender?.takeCount() ?? 0;
   state.textContent = !sender
@@ -59,7 +60,7 @@ function stop(): void {
   stage.replaceChildren();
   button.textContent = words.start;
   fields.hidden = false;
-  say();
+  showState();
 }
 
 async function start(): Promise<void> {
@@ -68,7 +69,7 @@ async function start(): Promise<void> {
   const opened = await openCamera(which.value);
   button.disabled = false;
   if (opened.kind === "refused") {
-    trouble.textContent = opened.sentence;
+    trouble.textContent = say(opened.sentence);
     return;
   }
   const shownAs = name.value.trim() || words.named;
@@ -76,21 +77,21 @@ async function start(): Promise<void> {
   line = words.connecting;
   sender = startSender(opened.stream, shownAs, key, {
     state(link, sentence) {
-      line = link === "open" ? "" : sentence || words.connecting;
-      say();
+      line = link === "open" ? "" : (sentence && say(sentence)) || words.connecting;
+      showState();
     },
     watchers(count) {
       watchers = count;
     },
     trouble(sentence) {
-      trouble.textContent = sentence;
+      trouble.textContent = say(sentence);
     },
   });
   stage.replaceChildren(sender.video);
   button.textContent = words.stop;
   fields.hidden = true;
-  timer = window.setInterval(say, 1000);
-  say();
+  timer = window.setInterval(showState, 1000);
+  showState();
   stayAwake();
 }
 

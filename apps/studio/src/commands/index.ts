@@ -4,6 +4,7 @@ import { buildCommands } from "./build.ts";
 import { checkCommands } from "./check.ts";
 import { editCommands } from "./edit.ts";
 import { jogCommands } from "./jog.ts";
+import { languageCommands } from "./language.ts";
 import { playCommands } from "./play.ts";
 import { programCommands } from "./program.ts";
 import { viewCommands } from "./view.ts";
@@ -18,5 +19,6 @@ export const startCommands = (checking: Checking): (() => void) =>
     ...jogCommands(),
     ...playCommands(),
     ...viewCommands(),
+    ...languageCommands(),
     ...editCommands(),
   ]);

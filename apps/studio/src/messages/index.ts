@@ -1,5 +1,36 @@
-import { en } from "./en.ts";
+import { type Words, wordsOf } from "./catalogue.ts";
+import { en } from "./en/index.ts";
+import { type Language, PSEUDO, languageIn, translationOf } from "./languages.ts";
+import { decimalPoint, setNumbersOf } from "./numbers.ts";
+import { translatorOf } from "./sentences.ts";
 
-/** Every string a person sees or hears of. Another language is another file of this shape. */
-export type Words = typeof en;
-export const words: Words = en;
+/** The language of this page. It is chosen once, when the page loads: another one loads the page again. */
+export const language: Language = languageIn(globalThis);
+
+interface Spoken {
+  readonly words: Words<typeof en>;
+  readonly say: (said: string) => string;
+}
+
+async function load(): Promise<Spoken> {
+  setNumbersOf(language);
+  if (typeof document !== "undefined") document.documentElement.lang = language;
+  if (language === PSEUDO) {
+    const { pseudo, pseudoSentence } = await import("./pseudo.ts");
+    return { words: wordsOf(en, {}, { locale: language, letters: pseudo, said: pseudoSentence }), say: pseudo };
+  }
+  const { catalogue, sentences } = await translationOf(language);
+  const say = translatorOf(sentences, decimalPoint());
+  return { words: wordsOf(en, catalogue, { locale: language, said: say }), say };
+}
+
+const spoken = await load();
+
+/** Every text a person sees or hears, in the language of this page. */
+export const { words } = spoken;
+
+/**
+ * What a package said, in the language of this page: refusals, faults, findings, assumptions, reports. What the
+ * language's catalogue does not have is said in English.
+ */
+export const { say } = spoken;

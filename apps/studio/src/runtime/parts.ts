@@ -1,6 +1,7 @@
 import { partById, partObject, worldBounds, type CellDocument, type PartNumbers } from "@twincell/project";
 import { pose, type Vector3 } from "@twincell/core";
 import { words } from "../messages/index.ts";
+import { partName } from "../messages/phrases.ts";
 import { cellStore } from "../stores/cell.ts";
 import { commit } from "../stores/document.ts";
 import { select } from "../stores/selection.ts";
@@ -26,7 +27,7 @@ export function placePart(part: string, at_m?: Vector3, numbers: PartNumbers = {
   const kind = partById(part);
   const { document } = cellStore.getState();
   if (!kind || !document) return null;
-  const name = words.parts.names[part] ?? part;
+  const name = partName(part);
   const names = new Set(document.objects.map(object => object.name));
   const ids = new Set(document.objects.map(object => object.id));
   let n = 1;

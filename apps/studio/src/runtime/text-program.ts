@@ -170,7 +170,7 @@ export async function touchUpSelected(): Promise<boolean> {
   const step = stepOfPoint(state, point);
   const move = program.steps.find(each => each.id === step);
   if (move?.type !== "move") {
-    notify("info", words.text.notReached(point.name), words.text.notReachedHint);
+    notify("info", words.text.notReached(point.name || words.text.thisPoint), words.text.notReachedHint);
     return false;
   }
   const id = ++count;

@@ -1,5 +1,6 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
+import { words } from "../messages/index.ts";
 
 /** The controller chip: who commands, in which mode, how late, in words. */
 export interface ControlState {
@@ -19,7 +20,7 @@ export interface ControlState {
   readonly signals: ReadonlyMap<string, boolean | number>;
 }
 export const controlStore = createStore<ControlState>(() => ({
-  controller: "Virtual robot",
+  controller: words.control.virtualRobot,
   mode: "automatic",
   safety: "normal",
   commander: "you",

@@ -1,4 +1,5 @@
 import { createStore } from "zustand/vanilla";
+import { say } from "../messages/index.ts";
 
 /** One clear sentence to the person, with the way out. */
 export interface Notice {
@@ -20,9 +21,10 @@ const stays = (notice: Notice): boolean => !quiet(notice);
 const MAX_SHOWN = 3;
 
 let next = 1;
-export function notify(tone: Notice["tone"], sentence: string, hint?: string): number {
+export function notify(tone: Notice["tone"], said: string, hint?: string): number {
   const id = next++;
-  const notice: Notice = hint === undefined ? { id, tone, sentence } : { id, tone, sentence, hint };
+  const sentence = say(said);
+  const notice: Notice = hint === undefined ? { id, tone, sentence } : { id, tone, sentence, hint: say(hint) };
   noticeStore.setState(state => ({
     notices: [
       ...state.notices

@@ -32,8 +32,15 @@ export function changeRobot(id: string): boolean {
     return false;
   notify(
     kept === points ? "done" : "warn",
-    words.robots.changed(shortName(to), kept, points),
+    changedWords(shortName(to), kept, points),
     kept === points ? undefined : words.robots.changedHint,
   );
   return true;
+}
+
+function changedWords(robot: string, kept: number, points: number): string {
+  if (points === 0) return words.robots.changed(robot);
+  return kept === points
+    ? words.robots.changedAll(robot, points)
+    : words.robots.changedSome(robot, kept, points, points - kept);
 }

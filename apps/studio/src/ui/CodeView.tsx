@@ -71,7 +71,7 @@ export function CodeView({ text, label, dialect = "", current = 0, marked, wrong
                   {line}
                 </span>
               )}
-              <code>{painted(lines[item.index] ?? "", syntax)}</code>
+              <code translate="no">{painted(lines[item.index] ?? "", syntax)}</code>
             </div>
           );
         })}

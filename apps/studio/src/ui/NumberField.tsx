@@ -62,7 +62,7 @@ export function NumberField({
     }
     const answer = parseTyped(typed, quantity, value);
     if (answer.kind === "not-understood") {
-      setFault(words.field.notUnderstood(typed, unit));
+      setFault(words.field.notUnderstood(typed, unit === "" ? "25" : `25 ${unit}`));
       return;
     }
     const wanted = within(answer.value);

@@ -1,3 +1,5 @@
+import { fixed } from "../messages/numbers.ts";
+
 /**
  * What a number field is about; decides the unit when none is typed. Inside: metres, radians, seconds, metres a second,
  * 1.
@@ -116,12 +118,12 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
   return Number.isFinite(value) ? { kind: "value", value } : { kind: "not-understood", at };
 }
 
-/** As many decimals as the quantity deserves, with a true minus and never "−0". */
+/** As many decimals as the quantity deserves, with the language's decimal sign, a true minus and never "−0". */
 export function showNumber(
   value: number,
   quantity: Quantity,
   decimals = quantity === "time" ? 2 : quantity === "percent" ? 0 : 2,
 ): string {
-  const text = (value / shownFactor(quantity)).toFixed(decimals);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+  const text = fixed(value / shownFactor(quantity), decimals);
+  return (/[1-9]/.test(text) ? text : text.replace("-", "")).replace("-", "−");
 }

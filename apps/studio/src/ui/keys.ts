@@ -1,15 +1,15 @@
+import { words } from "../messages/index.ts";
+
 const onMac = typeof navigator !== "undefined" && /mac|iphone|ipad/i.test(navigator.userAgent);
 const WRITTEN: Readonly<Record<string, string>> = {
-  Mod: onMac ? "⌘" : "Ctrl",
-  Shift: onMac ? "⇧" : "Shift",
-  Alt: onMac ? "⌥" : "Alt",
+  ...words.keys,
+  Mod: onMac ? "⌘" : words.keys.Control,
+  Shift: onMac ? "⇧" : words.keys.Shift,
+  Alt: onMac ? "⌥" : words.keys.Alt,
   ArrowLeft: "←",
   ArrowRight: "→",
   ArrowUp: "↑",
   ArrowDown: "↓",
-  Space: "Space",
-  Delete: "Del",
-  Escape: "Esc",
   "?": "?",
 };
 

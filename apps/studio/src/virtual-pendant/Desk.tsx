@@ -1,6 +1,6 @@
 import { useEffect } from "react";
 import { useStore } from "zustand";
-import { words } from "../messages/index.ts";
+import { say, words } from "../messages/index.ts";
 import { Around } from "./Around.tsx";
 import { ArmPicture } from "./ArmPicture.tsx";
 import { Hand } from "./Hand.tsx";
@@ -31,10 +31,10 @@ export function Desk({ link, alone }: { readonly link: VirtualPendantLink; reado
   if (!told || !lamps)
     return (
       <p className="desk-wait muted" role="status">
-        {complaint?.sentence ?? words.cabinet.connecting}
+        {complaint ? say(complaint.sentence) : words.cabinet.connecting}
       </p>
     );
-  const says = complaint ? `${complaint.sentence} ${complaint.hint}` : lamps.says;
+  const says = say(complaint ? `${complaint.sentence} ${complaint.hint}` : lamps.says);
   return (
     <div className="desk" data-alone={alone} data-connected={connected}>
       {!connected && (

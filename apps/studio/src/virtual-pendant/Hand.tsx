@@ -128,7 +128,7 @@ export function Hand({ link, alone }: { readonly link: VirtualPendantLink; reado
       </div>
       <p className="small muted desk-says" role="status">
         {lamps.jog
-          ? words.cabinet.jogging(lamps.jog.joint, lamps.jog.direction)
+          ? words.cabinet.jogging(lamps.jog.joint, lamps.jog.direction > 0 ? "+" : "−")
           : isManual
             ? lamps.enabled
               ? words.cabinet.ready

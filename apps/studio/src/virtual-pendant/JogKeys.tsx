@@ -6,6 +6,7 @@ import { fixedXyz } from "../runtime/jog/fixed-xyz.ts";
 import { showNumber } from "../ui/expression.ts";
 import { HoldButton } from "../ui/HoldButton.tsx";
 import { words } from "../messages/index.ts";
+import { fixed } from "../messages/numbers.ts";
 import type { VirtualPendantLink } from "./link.ts";
 
 const NONE: PendantWords["joints"] = [];
@@ -26,7 +27,7 @@ export function JogKeys({ link, disabled }: { readonly link: VirtualPendantLink;
     return link.onShown(({ q_rad, flange }) => {
       joints.forEach(({ lower_rad, upper_rad, slides }, i) => {
         const q = q_rad[i] ?? NaN;
-        write(values.current[i], slides ? `${showNumber(q, "length")} mm` : `${((q * 180) / Math.PI).toFixed(2)}°`);
+        write(values.current[i], slides ? `${showNumber(q, "length")} mm` : `${fixed((q * 180) / Math.PI, 2)}°`);
         const gauge = gauges.current[i];
         if (gauge) gauge.style.left = `${100 * Math.min(1, Math.max(0, (q - lower_rad) / (upper_rad - lower_rad)))}%`;
       });
@@ -34,7 +35,7 @@ export function JogKeys({ link, disabled }: { readonly link: VirtualPendantLink;
       TIP.forEach((_, i) => {
         write(
           tips.current[i],
-          i < 3 ? `${(1000 * flange.position[i]!).toFixed(1)} mm` : `${((turn[i - 3]! * 180) / Math.PI).toFixed(1)}°`,
+          i < 3 ? `${fixed(1000 * flange.position[i]!, 1)} mm` : `${fixed((turn[i - 3]! * 180) / Math.PI, 1)}°`,
         );
       });
     });

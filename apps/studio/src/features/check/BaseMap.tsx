@@ -4,6 +4,7 @@ import { moveToSuggestedBase } from "../../runtime/planning/base-map.ts";
 import { baseMapStore, showBaseMap } from "../../stores/base-map.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 /** The switch of the base position map, what its colours mean, and the place that it suggests. */
 export function BaseMap() {
@@ -49,7 +50,7 @@ function Suggestion({ best, points }: { readonly best: SuggestedBase; readonly p
       <p className="small">
         <b>{words.check.baseMapBest(signed(best.x_m), signed(best.y_m))}</b>
         <br />
-        <span className="muted">{words.check.baseMapSays(best.roomy, points, best.duration_s.toFixed(1))}</span>
+        <span className="muted">{words.check.baseMapSays(best.roomy, points, fixed(best.duration_s, 1))}</span>
       </p>
       {connected ? (
         <p className="small muted">{words.check.baseMapConnected}</p>
@@ -62,4 +63,4 @@ function Suggestion({ best, points }: { readonly best: SuggestedBase; readonly p
   );
 }
 
-const signed = (length_m: number): string => `${length_m < 0 ? "−" : "+"}${Math.abs(length_m * 1000).toFixed(0)}`;
+const signed = (length_m: number): string => `${length_m < 0 ? "−" : "+"}${fixed(Math.abs(length_m * 1000), 0)}`;

@@ -5,7 +5,7 @@ import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationStore } from "../../stores/stations.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { BaseMap } from "./BaseMap.tsx";
 import { JointColumn } from "./JointColumn.tsx";
 import { figures } from "./figures.ts";
@@ -65,7 +65,7 @@ export function Check() {
           )}
           {problem && (
             <p className="why" data-tone="bad" role="alert">
-              <b>{words.check.trouble}</b> {problem}
+              <b>{words.check.trouble}</b> {say(problem)}
             </p>
           )}
           {steps === 0 ? (
@@ -97,7 +97,7 @@ export function Check() {
                 <summary>{words.check.assumptions}</summary>
                 <ul className="notes">
                   {verdict.assumptions.map(says => (
-                    <li key={says}>{says}</li>
+                    <li key={says}>{say(says)}</li>
                   ))}
                 </ul>
               </details>

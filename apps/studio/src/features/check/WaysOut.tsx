@@ -3,7 +3,7 @@ import { useEffect } from "react";
 import { useStore } from "zustand";
 import { applyRepair, cancelRepairing, explainStep } from "../../runtime/planning/repairing.ts";
 import { repairStore, showRepair } from "../../stores/repairs.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { useMedia } from "../../ui/useMedia.ts";
 import { outcomeWords } from "./outcome.ts";
 
@@ -54,7 +54,7 @@ function Explained({ explanation }: { readonly explanation: Explanation }) {
   const place = sentence.startsWith(finding.sentence) ? sentence.slice(finding.sentence.length).trim() : sentence;
   return (
     <>
-      {place !== "" && <p className="why-cause">{place}</p>}
+      {place !== "" && <p className="why-cause">{say(place)}</p>}
       {repairs.length === 0 && <p className="small">{words.check.noneFound}</p>}
       {repairs.length > 0 && (
         <ol className="ways-out" aria-label={words.check.waysOut} onPointerLeave={unpinned}>
@@ -76,7 +76,7 @@ function Explained({ explanation }: { readonly explanation: Explanation }) {
           <summary>{words.check.tried}</summary>
           <ul className="notes">
             {tried.map(says => (
-              <li key={says}>{says}</li>
+              <li key={says}>{say(says)}</li>
             ))}
           </ul>
         </details>
@@ -118,7 +118,7 @@ function WayOut({ step, cause, repair, index, shown }: WayOutProps) {
         {index + 1}
       </button>
       <span className="way-says">
-        <b>{repair.sentence}</b>
+        <b>{say(repair.sentence)}</b>
         <span className="muted small">{outcomeWords(repair.reaches, cause)}</span>
       </span>
       <button

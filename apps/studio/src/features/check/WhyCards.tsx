@@ -12,7 +12,7 @@ import { collideStore } from "../../stores/collide.ts";
 import { repairStep, findStep, stepsToRepair, stepWords } from "../../stores/program.ts";
 import { repairStore } from "../../stores/repairs.ts";
 import { previewStep } from "../../stores/seek.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
 import { WaysOut } from "./WaysOut.tsx";
 
@@ -113,13 +113,13 @@ function WhyCard({ card, subject, first, ours }: CardProps) {
         <i className="mark" data-verdict={card.verdict} aria-hidden />
         <span>
           <span className="why-subject">{subject}</span>
-          <b>{finding.sentence}</b>
+          <b>{say(finding.sentence)}</b>
           {card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}
         </span>
       </button>
       {own.map(({ id, repair }) => (
         <div className="why-repair" key={repair.sentence}>
-          <span className="muted">{repair.sentence}</span>
+          <span className="muted">{say(repair.sentence)}</span>
           {repair.replace && (
             <button
               className="btn tight"

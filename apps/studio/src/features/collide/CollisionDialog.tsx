@@ -9,6 +9,7 @@ import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { PairTable } from "./PairTable.tsx";
 import "./collide.css";
 
@@ -73,7 +74,7 @@ function Body({ robot }: { robot: Robot }) {
     [words.collide.shapeError, words.collide.keptSays(mm(robot.shapeError_m))],
     [
       words.collide.braking,
-      words.collide.brakingSays(braking_s.toFixed(2), mm(brakingDistance_m(robot, robot.maxTcpSpeed_mps))),
+      words.collide.brakingSays(fixed(braking_s, 2), mm(brakingDistance_m(robot, robot.maxTcpSpeed_mps))),
     ],
   ] as const;
   return (

@@ -8,6 +8,7 @@ import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import "./demonstration.css";
 
 /** A recorded hand: what the filters make of it, how far that is off, and the steps it becomes. */
@@ -42,7 +43,7 @@ function Body({ open: { demonstration, dropped, filtered, options } }: { readonl
   const mm = (length_m: number): string => `${showNumber(length_m, "length", 2)} mm`;
   const facts = [
     [words.demonstration.samples, words.demonstration.samplesSay(demonstration.times_s.length, dropped)],
-    [words.demonstration.rate, words.demonstration.rateSays(sampleRate_Hz(demonstration).toFixed(0))],
+    [words.demonstration.rate, words.demonstration.rateSays(fixed(sampleRate_Hz(demonstration), 0))],
     [words.demonstration.stops, count("stop")],
     [words.demonstration.straights, count("straight")],
     [words.demonstration.curves, count("curve")],

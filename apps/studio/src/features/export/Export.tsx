@@ -13,7 +13,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { download } from "../../ui/download.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
@@ -106,13 +106,14 @@ function Body() {
         {proof && (
           <p className="export-proof" data-good={proof.kind === "proven"}>
             <i className="mark" data-verdict={proof.kind === "proven" ? "ok" : "bad"} aria-hidden />
-            {proof.sentence}
+            {say(proof.sentence)}
           </p>
         )}
         {(problem ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
           <p className="export-proof" role="alert">
             <i className="mark" data-verdict="bad" aria-hidden />
-            {words.export.cannot} {problem ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
+            {words.export.cannot}{" "}
+            {say(problem ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : ""))}
           </p>
         )}
         {emitted?.kind === "emitted" && (
@@ -123,7 +124,7 @@ function Body() {
             ) : (
               <ul className="notes small">
                 {emitted.warnings.map(says => (
-                  <li key={says}>{says}</li>
+                  <li key={says}>{say(says)}</li>
                 ))}
               </ul>
             )}
@@ -135,7 +136,7 @@ function Body() {
             <ul className="notes">
               {dialect.cannot.map(({ what, because }) => (
                 <li key={what}>
-                  <b>{what}</b>: {because}
+                  <b>{say(what)}</b>: {say(because)}
                 </li>
               ))}
             </ul>

@@ -14,6 +14,7 @@ import { showMode, viewStore } from "../../stores/view.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../messages/index.ts";
+import { skippedWords } from "../../messages/phrases.ts";
 
 const GUESS = "guess";
 /** Typing settles before the text is read. */
@@ -155,7 +156,7 @@ function Body() {
                 data-verdict={skipped.some(({ what }) => what !== "statement") ? "bad" : "warn"}
                 aria-hidden
               />{" "}
-              {words.foreign.skipped(skipped)}
+              {skippedWords(skipped)}
             </p>
             <Places faults={skipped} bad={each => "what" in each && each.what !== "statement"} look={look} />
           </>

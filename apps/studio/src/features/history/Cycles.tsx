@@ -6,10 +6,11 @@ import { cellStore } from "../../stores/cell.ts";
 import { flangeFromTcpOf } from "../../stores/document.ts";
 import { historyStore } from "../../stores/history.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { clockOf } from "./times.ts";
 
 const ROW_PX = 44;
-const mm = (m: number): string => (m * 1000).toFixed(m < 0.01 ? 2 : 1);
+const mm = (m: number): string => fixed(m * 1000, m < 0.01 ? 2 : 1);
 
 /** Every cycle of what is open; two of them laid over each other in the view. */
 export function Cycles() {
@@ -78,7 +79,7 @@ export function Cycles() {
                   {clockOf(Math.max(0, cycle.from_s))}
                 </button>
                 <span className="grow small muted">
-                  {(cycle.to_s - cycle.from_s).toFixed(2)} s · {words.history.cycleEnds[cycle.ending]}
+                  {fixed(cycle.to_s - cycle.from_s, 2)} s · {words.history.cycleEnds[cycle.ending]}
                 </span>
               </div>
             );
@@ -93,13 +94,13 @@ function Difference() {
   const comparison = useStore(historyStore, state => state.overlay?.comparison);
   if (!comparison) return null;
   const { longer_s, apart_m, apartAt_s, offPath_m } = comparison;
-  const by = Math.abs(longer_s).toFixed(2);
+  const by = fixed(Math.abs(longer_s), 2);
   return (
     <div className="history-difference" role="status">
       <p>
         {by === "0.00" ? words.history.asLong : longer_s > 0 ? words.history.longer(by) : words.history.shorter(by)}
       </p>
-      <p>{words.history.apart(mm(apart_m), apartAt_s.toFixed(2))}</p>
+      <p>{words.history.apart(mm(apart_m), fixed(apartAt_s, 2))}</p>
       <p>{words.history.offPath(mm(offPath_m))}</p>
       <button
         className="btn tight"

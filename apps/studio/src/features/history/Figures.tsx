@@ -6,11 +6,13 @@ import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
 import { serviceStore, setServiceTravel } from "../../stores/service.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
+import { whole } from "../../messages/numbers.ts";
 import { clockOf } from "./times.ts";
 import { Trend } from "./Trend.tsx";
 
-const percent = (share: number): string => (100 * share).toFixed(share < 0.1 && share > 0 ? 1 : 0);
+const percent = (share: number): string => fixed(100 * share, share < 0.1 && share > 0 ? 1 : 0);
 
 /**
  * What the recording says of production: cycle times, use, alarms, loads, wear (row T-56). What the source does not
@@ -40,9 +42,9 @@ export default function Figures() {
           cycles.count > 0
             ? words.history.cyclesSay(
                 cycles.count,
-                cycles.median_s.toFixed(2),
-                cycles.fastest_s.toFixed(2),
-                cycles.slowest_s.toFixed(2),
+                fixed(cycles.median_s, 2),
+                fixed(cycles.fastest_s, 2),
+                fixed(cycles.slowest_s, 2),
               )
             : words.history.noCycles
         }
@@ -85,7 +87,7 @@ export default function Figures() {
               >
                 {words.history.alarmTimes(alarm.count)}
               </button>{" "}
-              <span>{alarm.sentence}</span>
+              <span>{say(alarm.sentence)}</span>
             </li>
           ))}
         </ul>
@@ -164,6 +166,9 @@ function Joints({
   );
 }
 
+const hoursWords = (hours: number): string =>
+  Number.isFinite(hours) ? words.history.hoursOf(hours) : words.history.noEnd;
+
 const DEGREES = 180 / Math.PI;
 const MILLIMETRES = 1000;
 const slides = (robot: Robot | undefined, joint: number): boolean =>
@@ -173,9 +178,7 @@ const slides = (robot: Robot | undefined, joint: number): boolean =>
 function Travel({ travel, robot }: { readonly travel: readonly JointTravel[]; readonly robot: Robot | undefined }) {
   const most = Math.max(...travel.map(joint => joint.travel), 1e-9);
   const far = (joint: number, way: number): string =>
-    slides(robot, joint - 1)
-      ? `${Math.round(way * MILLIMETRES).toLocaleString("en")} mm`
-      : `${Math.round(way * DEGREES).toLocaleString("en")}°`;
+    slides(robot, joint - 1) ? `${whole(way * MILLIMETRES)} mm` : `${whole(way * DEGREES)}°`;
   return (
     <table className="history-travel">
       <tbody>
@@ -188,7 +191,7 @@ function Travel({ travel, robot }: { readonly travel: readonly JointTravel[]; re
             <td>{far(joint, all)}</td>
             <td className="muted">
               {service.kind === "reported"
-                ? words.history.served(percent(service.value.share), words.history.hoursOf(service.value.hoursLeft))
+                ? words.history.served(percent(service.value.share), hoursWords(service.value.hoursLeft))
                 : `${far(joint, perHour)} ${words.history.perHour}`}
             </td>
           </tr>
@@ -231,7 +234,7 @@ function Service({ robot, travel }: { readonly robot: Robot; readonly travel: re
 function hintWords(hint: Hint): string {
   switch (hint.kind) {
     case "slower":
-      return words.history.slower(percent(hint.by), hint.from_s.toFixed(2), hint.to_s.toFixed(2));
+      return words.history.slower(percent(hint.by), fixed(hint.from_s, 2), fixed(hint.to_s, 2));
     case "load-rises":
       return words.history.loadRises(hint.joint, percent(hint.by));
     case "temperature-rises":

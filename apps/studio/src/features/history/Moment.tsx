@@ -2,7 +2,8 @@ import { BellRing, GitBranch, Link2 } from "lucide-react";
 import { useStore } from "zustand";
 import { branchFromHere, shareMoment, theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { clockOf, MOST_SHOWN, wallOf } from "./times.ts";
 
 /** How everything stood at the moment that is looked at, what can be done with it, and what happened around it. */
@@ -63,7 +64,7 @@ export function Moment() {
           <Line key={name} name={name} value={value} />
         ))}
       </dl>
-      {moment.message && <p className="small">{moment.message}</p>}
+      {moment.message && <p className="small">{say(moment.message)}</p>}
       <h3>{words.history.events}</h3>
       {inSight.length === 0 && <p className="small muted">{words.history.noEvents}</p>}
       <ul className="history-events">
@@ -77,7 +78,7 @@ export function Moment() {
             >
               {clockOf(mark.at_s)}
             </button>{" "}
-            <span>{mark.kind === "operator" ? `${mark.code} ${mark.sentence}` : mark.sentence}</span>
+            <span>{mark.kind === "operator" ? `${mark.code} ${say(mark.sentence)}` : say(mark.sentence)}</span>
           </li>
         ))}
       </ul>
@@ -91,6 +92,6 @@ export function Moment() {
 const Line = ({ name, value }: { readonly name: string; readonly value: boolean | number }) => (
   <>
     <dt>{name}</dt>
-    <dd>{typeof value === "boolean" ? (value ? "1" : "0") : Number.isInteger(value) ? value : value.toFixed(2)}</dd>
+    <dd>{typeof value === "boolean" ? (value ? "1" : "0") : Number.isInteger(value) ? value : fixed(value, 2)}</dd>
   </>
 );

@@ -5,6 +5,7 @@ import { useStore } from "zustand";
 import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { viewStore } from "../../stores/view.ts";
 import { clockOf } from "./times.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3", "#a3b53a"];
 const HEIGHT = 104;
@@ -38,7 +39,7 @@ export function Trend({
       ticks: { stroke: colour("--line") },
       font: "10px Inter Variable",
     };
-    const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${at.toFixed(1)}${unit}`);
+    const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${fixed(at, 1)}${unit}`);
     const plot = new uPlot(
       {
         width: element.clientWidth,

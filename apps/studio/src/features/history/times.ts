@@ -1,6 +1,8 @@
+import { fixed } from "../../messages/numbers.ts";
+
 /** 12.34 s below a minute, 1:02:03.4 above it. */
 export function clockOf(t_s: number): string {
-  if (t_s < 60) return `${t_s.toFixed(2)} s`;
+  if (t_s < 60) return `${fixed(t_s, 2)} s`;
   const tenths = Math.floor(t_s * 10);
   const hours = Math.floor(tenths / 36_000);
   const minutes = Math.floor(tenths / 600) % 60;

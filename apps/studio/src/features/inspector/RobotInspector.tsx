@@ -3,7 +3,8 @@ import type { CellDocument } from "@twincell/project";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { digits } from "../../messages/numbers.ts";
 import { JointFields } from "./JointFields.tsx";
 import { PoseFields } from "./PoseFields.tsx";
 
@@ -14,17 +15,17 @@ export function RobotInspector({ document }: { document: CellDocument }) {
   const mass =
     load.kind === "known" && load.payload_kg > 0
       ? words.inspector.massLoaded(load.robot_kg, load.total_kg)
-      : `${robot.mass_kg ?? 0} kg`;
+      : `${digits(robot.mass_kg ?? 0)} kg`;
   const facts = [
     [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`],
-    [words.inspector.payload, robot.payload_kg === undefined ? words.robots.unknown : `${robot.payload_kg} kg`],
+    [words.inspector.payload, robot.payload_kg === undefined ? words.robots.unknown : `${digits(robot.payload_kg)} kg`],
     [
       words.inspector.repeatability,
       robot.repeatability_m === undefined
         ? words.robots.unknown
         : `±${showNumber(robot.repeatability_m, "length", 3)} mm`,
     ],
-    [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
+    [words.inspector.tcpSpeed, `${digits(robot.maxTcpSpeed_mps)} m/s`],
     [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`],
     ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, mass] as const]),
   ] as const;
@@ -73,7 +74,7 @@ export function RobotInspector({ document }: { document: CellDocument }) {
             <summary>{words.inspector.assumptions}</summary>
             <ul className="notes">
               {robot.assumptions.map(says => (
-                <li key={says}>{says}</li>
+                <li key={says}>{say(says)}</li>
               ))}
             </ul>
           </details>

@@ -4,6 +4,7 @@ import { runCommand } from "../../stores/commands.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { words } from "../../messages/index.ts";
+import { solidName } from "../../messages/phrases.ts";
 
 /** Beyond this there is plenty of room, and the watch does not measure [m]. */
 const PLENTY_M = 0.25;
@@ -33,9 +34,7 @@ export function ClearanceTag() {
     >
       <span className="dim">{words.collide.clearance}</span> <b>{says}</b>
       {a !== "" && a !== undefined && b !== undefined && (touching || Number.isFinite(clearance_m)) && (
-        <span className="clearance-pair">
-          {words.collide.nearest(words.collide.solid(a, objects), words.collide.solid(b, objects))}
-        </span>
+        <span className="clearance-pair">{words.collide.nearest(solidName(a, objects), solidName(b, objects))}</span>
       )}
     </button>
   );

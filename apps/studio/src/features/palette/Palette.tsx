@@ -29,7 +29,7 @@ export function Palette() {
             autoFocus
             aria-label={words.palette.search}
           />
-          <Command.List className="palette-list" aria-label={words.palette.title}>
+          <Command.List className="palette-list" label={words.palette.title}>
             <Command.Empty className="empty">{words.palette.none}</Command.Empty>
             {GROUPS.map(group => (
               <Command.Group key={group} heading={words.palette.groups[group]}>

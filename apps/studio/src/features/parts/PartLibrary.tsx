@@ -6,6 +6,7 @@ import { buildStore } from "../../stores/build.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { words } from "../../messages/index.ts";
+import { partName } from "../../messages/phrases.ts";
 import { partPicture } from "./picture.ts";
 import "./parts.css";
 
@@ -18,9 +19,7 @@ export function PartLibrary() {
   const [typed, setTyped] = useState("");
   const query = typed.trim().toLowerCase();
   const found = PARTS.filter(
-    part =>
-      (category === "all" || part.category === category) &&
-      (words.parts.names[part.id] ?? "").toLowerCase().includes(query),
+    part => (category === "all" || part.category === category) && partName(part.id).toLowerCase().includes(query),
   );
   return (
     <section className="parts" aria-label={words.parts.title}>
@@ -78,7 +77,7 @@ export function PartLibrary() {
 }
 
 function PartCard({ part }: { part: PartKind }) {
-  const name = words.parts.names[part.id] ?? part.id;
+  const name = partName(part.id);
   const numbers = partNumbers(part, {});
   const picture = useMemo(
     () => partPicture({ kind: "part", part: part.id, parameters: partNumbers(part, {}) }),

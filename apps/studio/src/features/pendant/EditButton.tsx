@@ -7,6 +7,7 @@ import { viewStore } from "../../stores/view.ts";
 import { isTyping } from "../../ui/keys.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 const KEY = "KeyX";
 /** A press that is shorter is a tap: EDIT stays until the next one, for a hand that needs the pointer to drag [ms]. */
@@ -50,7 +51,7 @@ export function EditButton() {
     edited === null
       ? words.edit.hint
       : edited.short_m > 0
-        ? words.edit.short(edited.name, (edited.short_m * 1000).toFixed(0))
+        ? words.edit.short(edited.name, fixed(edited.short_m * 1000, 0))
         : words.edit.at(edited.name);
   return (
     <>

@@ -10,7 +10,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { useLive } from "../../ui/useLive.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
 import { Connection } from "./Connection.tsx";
 import { JointGauges } from "./JointGauges.tsx";
@@ -47,7 +47,7 @@ export function Pendant() {
         <Axes />
         {blocked ? (
           <p className="pendant-blocked" role="alert">
-            {blocked.sentence}
+            {say(blocked.sentence)}
           </p>
         ) : (
           frame !== "joint" && <JointGauges />

@@ -7,7 +7,7 @@ import { recordStore } from "../../stores/record.ts";
 import { selectionStore } from "../../stores/selection.ts";
 import { orientationPresetStore } from "../../stores/aids.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { EditButton } from "./EditButton.tsx";
 
 /** Aids, home, record, touch up, gripper, last message. */
@@ -83,7 +83,7 @@ export function PointButtons() {
         </button>
       </div>
       <p className="small dim pendant-message" title={words.jog.message}>
-        {message || words.jog.dead}
+        {message ? say(message) : words.jog.dead}
       </p>
     </>
   );

@@ -4,7 +4,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { physicsStore } from "../../stores/physics.ts";
 import { viewStore } from "../../stores/view.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import "./physics.css";
 
 const SHOWN = 4;
@@ -38,7 +38,7 @@ function Panel() {
       {said.length > 0 && (
         <ol className="physics-said">
           {said.slice(0, SHOWN).map((sentence, i) => (
-            <li key={`${said.length - i} ${sentence}`}>{sentence}</li>
+            <li key={`${said.length - i} ${sentence}`}>{say(sentence)}</li>
           ))}
         </ol>
       )}
@@ -57,7 +57,7 @@ function Panel() {
       {assumptions.length > 0 && status !== "idle" && (
         <details className="small muted">
           <summary>{words.physics.restsOn}</summary>
-          <p>{assumptions.join(" ")}</p>
+          <p>{assumptions.map(say).join(" ")}</p>
         </details>
       )}
     </section>

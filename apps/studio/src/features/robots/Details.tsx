@@ -3,7 +3,8 @@ import { DRIVER_KINDS, robotsOf } from "@twincell/controllers";
 import { useMemo } from "react";
 import { languagesOf } from "../../stores/languages.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { digits } from "../../messages/numbers.ts";
 import { Picture } from "./Picture.tsx";
 
 /** Everything that is known of a robot, and what is not. */
@@ -23,7 +24,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
       <dl className="facts">
         <div>
           <dt>{words.robots.vendor}</dt>
-          <dd>{robot.vendor}</dd>
+          <dd translate="no">{robot.vendor}</dd>
         </div>
         <div>
           <dt>{words.robots.axes}</dt>
@@ -31,7 +32,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
         </div>
         <div>
           <dt>{words.inspector.payload}</dt>
-          <dd>{robot.payload_kg === undefined ? words.robots.unknown : `${robot.payload_kg} kg`}</dd>
+          <dd>{robot.payload_kg === undefined ? words.robots.unknown : `${digits(robot.payload_kg)} kg`}</dd>
         </div>
         <div>
           <dt>{words.inspector.reach}</dt>
@@ -51,11 +52,11 @@ export function Details({ robot }: { readonly robot: Robot }) {
         </div>
         <div>
           <dt>{words.robots.languages}</dt>
-          <dd>{languages.map(({ dialect }) => dialect.name).join(", ") || words.robots.noneKnown}</dd>
+          <dd translate="no">{languages.map(({ dialect }) => dialect.name).join(", ") || words.robots.noneKnown}</dd>
         </div>
         <div>
           <dt>{words.robots.drivers}</dt>
-          <dd>{drivers.map(({ name }) => name).join(", ") || words.robots.noneKnown}</dd>
+          <dd translate="no">{drivers.map(({ name }) => name).join(", ") || words.robots.noneKnown}</dd>
         </div>
       </dl>
       {languages.length === 0 && <p className="muted small">{words.export.noLanguage(robot.name)}</p>}
@@ -65,7 +66,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
         <ul className="notes">
           {Object.entries(robot.sources).map(([what, source]) => (
             <li key={what}>
-              {what}: {source}
+              {what}: {say(source)}
             </li>
           ))}
         </ul>
@@ -75,7 +76,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
           <h4 className="dim small">{words.inspector.assumptions}</h4>
           <ul className="notes small">
             {robot.assumptions.map(says => (
-              <li key={says}>{says}</li>
+              <li key={says}>{say(says)}</li>
             ))}
           </ul>
         </>

@@ -26,6 +26,13 @@ export default function Robots() {
   return open ? <Open /> : null;
 }
 
+const noneWords = (search: string): string =>
+  search.trim() === "" ? words.robots.noneAlike : words.robots.none(search);
+const foundWords = (found: number, of: number): string =>
+  found === of ? words.robots.foundAll(of) : words.robots.found(found, of);
+const payloadWords = (kg: number | undefined): string =>
+  kg === undefined ? words.robots.payloadUnknown : words.robots.payload(kg);
+
 function Open() {
   const here = useStore(cellStore, state => state.document?.robot.id ?? "");
   const running = useStore(controlStore, state => state.running);
@@ -111,7 +118,7 @@ function Open() {
             />
           </div>
           <p className="dim small" role="status">
-            {found.length === 0 ? words.robots.none(wish.search) : words.robots.found(found.length, robots.length)}
+            {found.length === 0 ? noneWords(wish.search) : foundWords(found.length, robots.length)}
           </p>
           <div role="radiogroup" aria-label={words.robots.title} className="robots-cards">
             {found.map(each => (
@@ -126,9 +133,13 @@ function Open() {
                 />
                 <Picture robot={each} width={56} height={56} />
                 <span className="robot-words">
-                  <b>{each.name}</b>
+                  <b translate="no">{each.name}</b>
                   <span className="dim small">
-                    {words.robots.facts(each.arm.joints.length, each.payload_kg, showNumber(each.reach_m, "length", 0))}
+                    {words.robots.facts(
+                      each.arm.joints.length,
+                      payloadWords(each.payload_kg),
+                      showNumber(each.reach_m, "length", 0),
+                    )}
                   </span>
                 </span>
                 {each.id === here && <span className="tag">{words.robots.here}</span>}

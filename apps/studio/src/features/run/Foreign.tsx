@@ -11,6 +11,7 @@ import { foreignStore, toggleBreakpoint, type ForeignText } from "../../stores/f
 import { playStore } from "../../stores/play.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { words } from "../../messages/index.ts";
+import { skippedWords } from "../../messages/phrases.ts";
 import { SignalList } from "./SignalList.tsx";
 
 /** A text from elsewhere, run as it stands: breakpoints by a click on the number, one statement at a time, or on. */
@@ -75,7 +76,7 @@ export function Foreign({ open }: { readonly open: ForeignText }) {
             data-verdict={skipped.some(({ what }) => what !== "statement") ? "bad" : "warn"}
             aria-hidden
           />{" "}
-          {words.foreign.skipped(skipped)}
+          {skippedWords(skipped)}
         </p>
       )}
       <SignalList signals={signals} />

@@ -13,7 +13,8 @@ import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { postStore } from "../../stores/post.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { Foreign } from "./Foreign.tsx";
 import { SignalList } from "./SignalList.tsx";
@@ -100,7 +101,7 @@ export default function Run() {
         {nothing && <p className="muted">{words.run.nothing}</p>}
         {cannot !== null && (
           <p role="alert" className="run-cannot">
-            {words.run.notEmitted(dialect?.name ?? "")} {cannot}
+            {words.run.notEmitted(dialect?.name ?? "")} {say(cannot)}
           </p>
         )}
         {program && <SignalList signals={program.signals} />}
@@ -129,12 +130,12 @@ function TwinError() {
     <dl className="facts run-facts">
       <div>
         <dt>{words.run.twin}</dt>
-        <dd data-testid="twin-error">{((error_rad * 180) / Math.PI).toFixed(6)}°</dd>
+        <dd data-testid="twin-error">{fixed((error_rad * 180) / Math.PI, 6)}°</dd>
       </div>
       {message && (
         <div>
           <dt>{words.jog.message}</dt>
-          <dd>{message}</dd>
+          <dd>{say(message)}</dd>
         </div>
       )}
     </dl>

@@ -11,7 +11,7 @@ import { seek } from "../../stores/seek.ts";
 import { select } from "../../stores/selection.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
 import "./run.css";
 
@@ -75,7 +75,9 @@ export default function RunQuestion() {
       {open && question.kind === "checking" && (
         <p role="status">{words.runQuestion.checking(Math.round(100 * (share ?? 0)))}</p>
       )}
-      {open && question.kind === "unchecked" && <p>{question.sentence || words.runQuestion.unchecked}</p>}
+      {open && question.kind === "unchecked" && (
+        <p>{question.sentence ? say(question.sentence) : words.runQuestion.unchecked}</p>
+      )}
       {open && question.kind === "red" && (
         <div className="stack">
           <p>{cards.length > 0 ? words.runQuestion.red(cards.length) : words.runQuestion.unchecked}</p>
@@ -84,7 +86,7 @@ export default function RunQuestion() {
               <li key={card.key}>
                 <i className="mark" data-verdict={card.verdict} aria-hidden />
                 <span>
-                  <b>{nameOf(card.step)}</b> {card.finding.sentence}
+                  <b>{nameOf(card.step)}</b> {say(card.finding.sentence)}
                 </span>
               </li>
             ))}

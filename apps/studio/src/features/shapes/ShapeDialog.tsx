@@ -7,13 +7,13 @@ import { cardOf, shapeStore, type ShapeCard } from "../../stores/shapes.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { whole } from "../../messages/numbers.ts";
 import "./shapes.css";
 
 const UNITS = ["0.001", "0.01", "1", "0.0254"] as const;
 /** What a phone or headset draws without effort, beside the rest of a cell. */
 const LIGHT_TRIANGLES = 80_000;
-const whole = (count: number): string => count.toLocaleString("en");
 const mm = (length_m: number, digits: number): string => `${showNumber(length_m, "length", digits)} mm`;
 
 /** What came of an import: what it measures, what was mended, its unit to be corrected, and fewer triangles. */
@@ -72,7 +72,7 @@ function Body({ card, busy }: { card: ShapeCard; busy: boolean }) {
         {unit.sentence !== "" && (
           <p className="small muted" data-certainty={unit.certainty}>
             {unit.certainty === "doubtful" && <b>{words.shapes.doubtful} </b>}
-            {unit.sentence}
+            {say(unit.sentence)}
           </p>
         )}
       </section>
@@ -83,7 +83,7 @@ function Body({ card, busy }: { card: ShapeCard; busy: boolean }) {
         ) : (
           <ul className="shape-fixes small">
             {report.fixes.map(fix => (
-              <li key={fix}>{fix}</li>
+              <li key={fix}>{say(fix)}</li>
             ))}
           </ul>
         )}

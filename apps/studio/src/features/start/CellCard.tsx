@@ -5,6 +5,7 @@ import { commit } from "../../stores/document.ts";
 import { libraryStore, theLibrary, type StoredCell } from "../../stores/library.ts";
 import { notify } from "../../stores/notices.ts";
 import { words } from "../../messages/index.ts";
+import { moment } from "../../messages/numbers.ts";
 import { sayWhen } from "./list.ts";
 
 interface Props {
@@ -80,7 +81,7 @@ export function CellCard({ cell, where, robot, now_ms, onOpen, onTrash, onPutBac
         <ol className="start-versions" aria-label={words.cells.versions(cell.name)}>
           {[...cell.versions].reverse().map(version => (
             <li key={version.number}>
-              <span className="grow small">{new Date(version.saved_ms).toLocaleString("en")}</span>
+              <span className="grow small">{moment(version.saved_ms)}</span>
               <button className="btn" onClick={() => onOpen(version.number)}>
                 {words.cells.goBack}
               </button>

@@ -10,7 +10,7 @@ import { notify } from "../../stores/notices.ts";
 import { keepPresent, openCell, openStored, trashCell } from "../../stores/opening.ts";
 import { shortName } from "../../stores/robot.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { CellCard } from "./CellCard.tsx";
 import { findCells } from "./list.ts";
 import "./start.css";
@@ -131,12 +131,12 @@ function Cells() {
               <button
                 key={id}
                 className="start-example"
-                aria-label={words.cells.openExample(example.name)}
+                aria-label={words.cells.openExample(say(example.name))}
                 onClick={() => openExample(example)}
               >
-                <b>{example.name}</b>
+                <b>{say(example.name)}</b>
                 <span className="muted small">{robotName(example.robot.id)}</span>
-                <span className="small">{sentence}</span>
+                <span className="small">{say(sentence)}</span>
               </button>
             ))}
           </div>

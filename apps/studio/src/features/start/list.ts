@@ -1,5 +1,6 @@
 import type { StoredCell } from "../../stores/library.ts";
 import { words } from "../../messages/index.ts";
+import { day } from "../../messages/numbers.ts";
 
 export interface FoundCell {
   readonly cell: StoredCell;
@@ -35,5 +36,5 @@ export function sayWhen(then_ms: number, now_ms: number): string {
   if (ago_ms < HOUR_MS) return words.cells.ago.minutes(Math.floor(ago_ms / MINUTE_MS));
   if (ago_ms < DAY_MS) return words.cells.ago.hours(Math.floor(ago_ms / HOUR_MS));
   if (ago_ms < 2 * DAY_MS) return words.cells.ago.yesterday;
-  return new Date(then_ms).toLocaleDateString("en", { day: "numeric", month: "short", year: "numeric" });
+  return day(then_ms);
 }

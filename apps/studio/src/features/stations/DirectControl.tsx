@@ -10,7 +10,8 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { Slide } from "../../ui/Slide.tsx";
 import { useEnablingSwitch } from "../../ui/useEnablingSwitch.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { Tester } from "./Tester.tsx";
 import { SignalControl } from "./SignalControl.tsx";
 import "./direct.css";
@@ -27,7 +28,7 @@ export function DirectControl({ station }: { readonly station: StationState }) {
   const off = safety === "emergency-stop" || guard.emergency;
   /** A motion that was stopped by letting go is told by the robot that stands, not by a sentence. */
   const tell = (outcome: Promise<CommandOutcome>): void => {
-    void outcome.then(ended => setSaid(ended.kind === "refused" ? ended.why.sentence : ""));
+    void outcome.then(ended => setSaid(ended.kind === "refused" ? say(ended.why.sentence) : ""));
   };
   return (
     <section className="direct" aria-label={words.direct.title} ref={area} tabIndex={-1}>
@@ -202,7 +203,7 @@ function Angle({ id, joint }: { readonly id: string; readonly joint: number }) {
     const write = (): void => {
       const q_rad = stationLive(id)?.q_rad[joint - 1];
       if (out.current && q_rad !== undefined)
-        out.current.textContent = `${((q_rad * 180) / Math.PI).toFixed(2).replace("-", "−")}°`;
+        out.current.textContent = `${fixed((q_rad * 180) / Math.PI, 2).replace("-", "−")}°`;
     };
     write();
     const timer = setInterval(write, 100);

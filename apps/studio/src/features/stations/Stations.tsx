@@ -37,7 +37,8 @@ import { stationStore, type StationState } from "../../stores/stations.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Slide } from "../../ui/Slide.tsx";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { DirectControl } from "./DirectControl.tsx";
 import { SynchronizedStart } from "./Together.tsx";
 import "./stations.css";
@@ -290,7 +291,7 @@ function Card({ station }: { readonly station: StationState }) {
         </p>
       )}
       {(station.notice || (!open && link.sentence)) && (
-        <p className="small station-says">{station.notice || link.sentence}</p>
+        <p className="small station-says">{say(station.notice || link.sentence)}</p>
       )}
       {wide && <Details station={station} />}
     </article>
@@ -298,7 +299,7 @@ function Card({ station }: { readonly station: StationState }) {
 }
 
 const degreesOf = (angle_rad: number | null): string =>
-  angle_rad === null ? "–" : `${((angle_rad * 180) / Math.PI).toFixed(3)}°`;
+  angle_rad === null ? "–" : `${fixed((angle_rad * 180) / Math.PI, 3)}°`;
 
 function Details({ station }: { readonly station: StationState }) {
   const { link } = station;
@@ -309,7 +310,7 @@ function Details({ station }: { readonly station: StationState }) {
         <div>
           <dt>{words.control.latency}</dt>
           <dd>
-            {words.stations.figures(link.rate_Hz.toFixed(0), words.stations.ms(link.late_s), link.missing)}
+            {words.stations.figures(fixed(link.rate_Hz, 0), words.stations.ms(link.late_s), link.missing)}
             {link.roundTrip_s !== null && ` · ${words.stations.trip(words.stations.ms(link.roundTrip_s))}`}
           </dd>
         </div>
@@ -334,7 +335,7 @@ function Details({ station }: { readonly station: StationState }) {
         {station.message && (
           <div>
             <dt>{words.jog.message}</dt>
-            <dd>{station.message}</dd>
+            <dd>{say(station.message)}</dd>
           </div>
         )}
         <div>

@@ -5,7 +5,8 @@ import { stationLive } from "../../runtime/robot/stations.ts";
 import type { ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 type Action = keyof typeof words.direct.testerActions;
 const ACTIONS = Object.keys(words.direct.testerActions) as Action[];
@@ -31,9 +32,9 @@ export function Tester({
     setAngles(robot.jointAngles());
     setEndpoint(endpointOf(id));
   };
-  const say = (outcome: Promise<CommandOutcome>): void => {
+  const tell = (outcome: Promise<CommandOutcome>): void => {
     setResult("");
-    void outcome.then(ended => setResult(ended.kind === "done" ? words.direct.moved : ended.why.sentence));
+    void outcome.then(ended => setResult(ended.kind === "done" ? words.direct.moved : say(ended.why.sentence)));
   };
   const test = (): void => {
     switch (action) {
@@ -41,19 +42,19 @@ export function Tester({
         setResult(
           robot
             .jointAngles()
-            .map(q => `${((q * 180) / Math.PI).toFixed(3)}°`)
+            .map(q => `${fixed((q * 180) / Math.PI, 3)}°`)
             .join("  "),
         );
         break;
       case "move-joint":
-        say(robot.moveJoint(joint, angles_rad[joint - 1] ?? 0));
+        tell(robot.moveJoint(joint, angles_rad[joint - 1] ?? 0));
         break;
       case "move-joints":
-        say(robot.moveJoints(angles_rad));
+        tell(robot.moveJoints(angles_rad));
         break;
       case "move-endpoint": {
         const [x = 0, y = 0, z = 0, rx = 0, ry = 0, rz = 0] = endpoint;
-        say(robot.moveToPose({ position: [x, y, z], quaternion: fromFixedXyz(rx, ry, rz) }));
+        tell(robot.moveToPose({ position: [x, y, z], quaternion: fromFixedXyz(rx, ry, rz) }));
       }
     }
   };

@@ -10,7 +10,7 @@ import { playStore } from "../../stores/play.ts";
 import { pointAt, pointsOf, stepOfPoint, textStore } from "../../stores/text.ts";
 import { textOf } from "../../stores/document.ts";
 import { download } from "../../ui/download.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import { findingsOf, marksOf } from "./findings.ts";
 import { lineSpans, numbersOf } from "./lines.ts";
 import { TextLines } from "./TextLines.tsx";
@@ -163,7 +163,7 @@ function Problems({
           <li key={i}>
             <button className="text-problem" onClick={() => goToLine({ file: finding.file, line: finding.line })}>
               {finding.verdict === "bad" ? <CircleX className="bad" /> : <TriangleAlert className="near" />}
-              <span className="grow">{finding.sentence}</span>
+              <span className="grow">{say(finding.sentence)}</span>
               <span className="dim small">
                 {text.files.length > 1 && `${text.files[finding.file]?.name ?? ""} · `}
                 {words.text.line(finding.line)}

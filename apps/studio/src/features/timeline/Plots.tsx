@@ -10,7 +10,8 @@ import { programOf, robotOf } from "../../stores/document.ts";
 import { seek } from "../../stores/seek.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { plotData } from "./plotData.ts";
 import { torquePlot } from "./torquePlot.ts";
 
@@ -45,7 +46,7 @@ export default function Plots({ plan }: { plan: Plan }) {
           ? torques.data
           : undefined;
     if (!data) return undefined;
-    const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${at.toFixed(1)}${unit}`);
+    const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${fixed(at, 1)}${unit}`);
     const limits = Array.from({ length: data.length - 1 - joints }, () => ({
       label: words.time.limit,
       stroke: colour("--text-3"),
@@ -69,7 +70,7 @@ export default function Plots({ plan }: { plan: Plan }) {
         cursor: { y: false, drag: { x: false, y: false } },
         scales: { x: { time: false } },
         series: [
-          { label: "s", value: (_plot, value) => (value === null ? "" : value.toFixed(2)) },
+          { label: "s", value: (_plot, value) => (value === null ? "" : fixed(value, 2)) },
           ...COLOURS.slice(0, joints).map((stroke, i) => ({
             label: words.time.joint(i + 1),
             stroke,
@@ -118,7 +119,7 @@ export default function Plots({ plan }: { plan: Plan }) {
         ]}
       />
       {torques?.kind === "unknown" ? (
-        <p className="empty">{torques.sentence}</p>
+        <p className="empty">{say(torques.sentence)}</p>
       ) : (
         <div ref={host} className="plot-host" />
       )}

@@ -135,7 +135,7 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
         </button>
       )}
       <button className="btn" onClick={() => runCommand("export.open")}>
-        {words.export.button(language)}
+        {language === "" ? words.export.buttonNone : words.export.button(language)}
       </button>
     </div>
   );

@@ -3,16 +3,22 @@ import { useStore } from "zustand";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { playStore } from "../../stores/play.ts";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 
 /** Who commands, in which mode, how late, and the safety state in words. */
 export function ControllerChip({ brief }: { brief: boolean }) {
   const control = useStore(controlStore);
   const override = useStore(playStore, state => state.speed);
-  const latency = control.latency_ms === null ? null : words.control.ms(control.latency_ms);
+  const latency =
+    control.latency_ms === null ? null : words.control.ms(fixed(control.latency_ms, control.latency_ms < 10 ? 1 : 0));
   const says =
     control.safety === "normal"
-      ? [words.control.modes[control.mode], latency, words.control.commands(control.commander)]
+      ? [
+          words.control.modes[control.mode],
+          latency,
+          control.commander === "you" ? words.control.youCommand : words.control.commands(control.commander),
+        ]
           .filter(Boolean)
           .join(" · ")
       : words.control.safetyStates[control.safety];
@@ -34,7 +40,7 @@ export function ControllerChip({ brief }: { brief: boolean }) {
             </div>
             <div>
               <dt>{words.control.commander}</dt>
-              <dd>{control.commander}</dd>
+              <dd>{control.commander === "you" ? words.control.you : control.commander}</dd>
             </div>
             <div>
               <dt>{words.control.mode}</dt>
@@ -53,7 +59,7 @@ export function ControllerChip({ brief }: { brief: boolean }) {
               <dd>{words.control.safetyStates[control.safety]}</dd>
             </div>
           </dl>
-          {control.message && <p className="chip-message">{control.message}</p>}
+          {control.message && <p className="chip-message">{say(control.message)}</p>}
           {control.safety !== "normal" && (
             <button className="btn" onClick={() => runCommand("run.reset")}>
               {words.control.reset}

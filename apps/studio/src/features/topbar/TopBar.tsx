@@ -1,4 +1,4 @@
-import { Headset, Moon, Redo2, Sun, Undo2, Volume2, VolumeX } from "lucide-react";
+import { Check, Headset, Moon, Redo2, Sun, Undo2, Volume2, VolumeX } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
@@ -8,7 +8,8 @@ import { showMode, viewStore, type StudioMode } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showKeys } from "../../ui/keys.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { language, words } from "../../messages/index.ts";
+import { languages, nameOf } from "../../messages/languages.ts";
 import { CellName } from "./CellName.tsx";
 import { ControllerChip } from "./ControllerChip.tsx";
 import { Override } from "./Override.tsx";
@@ -97,9 +98,43 @@ function CellMenu({ phone }: { phone: boolean }) {
                 )}
             </DropdownMenu.Group>
           ))}
+          {languages.length > 1 && (
+            <>
+              <DropdownMenu.Separator className="menu-line" />
+              <Languages />
+            </>
+          )}
         </DropdownMenu.Content>
       </DropdownMenu.Portal>
     </DropdownMenu.Root>
+  );
+}
+
+/** The languages of the studio, each by its own name. */
+function Languages() {
+  return (
+    <DropdownMenu.Sub>
+      <DropdownMenu.SubTrigger className="menu-item">
+        {words.language.menu}
+        <span className="kbd" lang={language} translate="no">
+          {nameOf(language)}
+        </span>
+      </DropdownMenu.SubTrigger>
+      <DropdownMenu.Portal>
+        <DropdownMenu.SubContent className="menu" sideOffset={4} collisionPadding={8}>
+          <DropdownMenu.RadioGroup value={language} onValueChange={wanted => runCommand(`language.${wanted}`)}>
+            {languages.map(each => (
+              <DropdownMenu.RadioItem key={each} className="menu-item" value={each} lang={each} translate="no">
+                <span className="grow">{nameOf(each)}</span>
+                <DropdownMenu.ItemIndicator>
+                  <Check size={14} />
+                </DropdownMenu.ItemIndicator>
+              </DropdownMenu.RadioItem>
+            ))}
+          </DropdownMenu.RadioGroup>
+        </DropdownMenu.SubContent>
+      </DropdownMenu.Portal>
+    </DropdownMenu.Sub>
   );
 }
 

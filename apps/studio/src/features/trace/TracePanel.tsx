@@ -6,6 +6,7 @@ import { traceStore, type TraceOptions } from "../../stores/trace.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
+import { showKeys } from "../../ui/keys.ts";
 import { words } from "../../messages/index.ts";
 import "./trace.css";
 
@@ -37,7 +38,7 @@ export function TracePanel() {
           {words.trace.loop}
           <span className="grow" />
           <span className="kbd" aria-hidden>
-            Shift
+            {showKeys("Shift")}
           </span>
         </label>
         {chosen.length === 0 ? (

@@ -131,7 +131,9 @@ function Leaf({
       <span className="glyph" aria-hidden>
         {glyph}
       </span>
-      <span className="name">{children}</span>
+      <span className="name" translate="no">
+        {children}
+      </span>
       {extra}
     </button>
   );
@@ -153,7 +155,7 @@ function Leaf({
           />
           <ContextMenu.Item className="menu-item danger" onSelect={() => deleteObject(object.id)}>
             {words.tree.deleteObject}
-            <span className="kbd">Del</span>
+            <span className="kbd">{showKeys("Delete")}</span>
           </ContextMenu.Item>
         </ContextMenu.Content>
       </ContextMenu.Portal>

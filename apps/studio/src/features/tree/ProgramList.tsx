@@ -24,6 +24,17 @@ import { anchorOf, behind, idsOf, programRows, type ProgramRow } from "./rows.ts
 
 const rowName = (row: ProgramRow): string => (row.kind === "step" ? stepWords(row.step, row.index) : row.name);
 
+/** What moved is said by the list itself, in the person's language. */
+const SPOKEN = {
+  screenReaderInstructions: { draggable: words.tree.reorderHint },
+  announcements: {
+    onDragStart: () => undefined,
+    onDragOver: () => undefined,
+    onDragEnd: () => undefined,
+    onDragCancel: () => undefined,
+  },
+};
+
 /** The steps in order: grouped, virtual, reordered by drag or Alt + ↑ ↓. */
 export function ProgramList() {
   const program = useStore(cellStore, state => programOf(state.document));
@@ -140,7 +151,7 @@ export function ProgramList() {
     <section className="program" aria-label={words.tree.program} id="program">
       <ProgramSwitch />
       {program && program.steps.length === 0 && <p className="empty">{words.tree.empty}</p>}
-      <DndContext sensors={sensors} collisionDetection={closestCenter} onDragEnd={onDragEnd}>
+      <DndContext sensors={sensors} collisionDetection={closestCenter} onDragEnd={onDragEnd} accessibility={SPOKEN}>
         <SortableContext items={rows.map(row => row.key)} strategy={verticalListSortingStrategy}>
           <div className="scroll program-scroll" ref={scroller}>
             <ol style={{ height: virtual.getTotalSize(), position: "relative" }}>

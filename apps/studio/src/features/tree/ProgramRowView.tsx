@@ -41,7 +41,10 @@ interface Props {
 /** One line: what it is called, how it moves, how it was judged. */
 export function ProgramRowView(props: Props) {
   const { row, index, top, on, renaming } = props;
-  const { attributes, listeners, setNodeRef, transform, transition, isDragging } = useSortable({ id: row.key });
+  const { attributes, listeners, setNodeRef, transform, transition, isDragging } = useSortable({
+    id: row.key,
+    attributes: { roleDescription: words.tree.sortable },
+  });
   const name = row.kind === "step" ? stepWords(row.step, row.index) : row.name;
   const path = pathOf(row);
   const style: CSSProperties = {

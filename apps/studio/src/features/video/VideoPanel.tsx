@@ -7,7 +7,8 @@ import { feedOf, hideCamera, tryAgain } from "../../runtime/video/feeds.ts";
 import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel as Panel } from "../../stores/video.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
+import { ageWords } from "../../messages/phrases.ts";
 import { movable } from "./movable.ts";
 
 const SAY_EVERY_MS = 250;
@@ -78,7 +79,7 @@ export function VideoPanel({
       <Picture id={id} trouble={problem} />
       {problem && (
         <p className="video-trouble" role="status">
-          {problem}{" "}
+          {say(problem)}{" "}
           {source.kind === "here" && problem !== words.video.asking && (
             <button className="btn tight" onClick={() => tryAgain(id)}>
               <RotateCcw />
@@ -169,7 +170,7 @@ function Age({ id }: { readonly id: string }) {
     const sorted = ages.current.toSorted((a, b) => a - b);
     const at = element.current;
     if (!feed || !at || sorted.length === 0) return;
-    at.textContent = words.video.age(sorted[sorted.length >> 1]!);
+    at.textContent = ageWords(sorted[sorted.length >> 1]!);
     const { stages } = feed;
     const { ms } = words.video;
     at.title = `${words.video.ageTip} ${words.video.uncertain(feed.uncertain_s)}${stages ? `\n${words.video.stages(ms(stages.taken_s), ms(stages.toServer_s), ms(stages.toHere_s), ms(stages.unpacked_s))}` : ""}`;

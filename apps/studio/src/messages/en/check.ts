@@ -1,5 +1,3 @@
-import { plural } from "./counted.ts";
-
 /** Judging: check, collision, time line, physics. */
 export const checkWords = {
   collide: {
@@ -24,11 +22,12 @@ export const checkWords = {
     shapeError: "Shape error of the drawn links",
     errors: "Errors measured on the real cell",
     errorNames: { registration_m: "Registration", twin_m: "Twin" },
-    errorsSum: (mm: string) =>
-      `With the shape error ${mm} mm are kept between the arm and what stands, in the check, by hand, in a run and by the guard of a connected robot.`,
+    "errorsSum(mm)":
+      "With the shape error {mm} mm are kept between the arm and what stands, in the check, by hand, in a " +
+      "run and by the guard of a connected robot.",
     braking: "Braking from full speed",
-    keptSays: (mm: string) => `${mm} mm`,
-    brakingSays: (s: string, mm: string) => `${s} s, up to ${mm} mm of the tool`,
+    "keptSays(mm)": "{mm} mm",
+    "brakingSays(s, mm)": "{s} s, up to {mm} mm of the tool",
     precision:
       "The answer is only as good as the cell: the shape error is added to what is kept between links and objects.",
     matrix: "Pairs of the robot's own parts",
@@ -36,7 +35,8 @@ export const checkWords = {
     learnFirst: "Learn",
     learning: "Sampling configurations …",
     matrixNone:
-      "Parts that touch in the home configuration are left out, all others are checked. Learn the matrix to see and change that.",
+      "Parts that touch in the home configuration are left out, all others are checked. Learn the matrix " +
+      "to see and change that.",
     matrixHint: "Click a pair to check it or leave it out.",
     matrixStale:
       "The matrix was learnt with another tool; pairs of the tool are checked as usual until it is learnt again.",
@@ -48,29 +48,27 @@ export const checkWords = {
       sometimes: "touched in some configurations",
       "never seen": "never touched",
     },
-    pair: (a: string, b: string, watched: boolean, why: string) =>
-      `${a} and ${b}: ${watched ? "checked" : "left out"}, ${why}`,
+    "pair(a, b, watched: boolean, why)": "{a} and {b}: {watched, select, true {checked} other {left out}}, {why}",
     checked: "checked",
     leftOut: "left out",
     joined: "joined",
-    tried: (n: number) => `${n.toLocaleString("en")} configurations sampled.`,
+    "tried(n: number)": "{n, number} configurations sampled.",
     clearance: "Clearance",
-    nearest: (a: string, b: string) => `${a} – ${b}`,
-    plenty: (mm: string) => `over ${mm}`,
+    "nearest(a, b)": "{a} – {b}",
+    "plenty(mm)": "over {mm}",
     contact: "contact",
-    solid: (id: string, objects: readonly { readonly id: string; readonly name: string }[]) => {
-      const object = objects.find(each => each.id === id);
-      return object ? `“${object.name}”` : id === "tool" ? "the tool" : id;
-    },
-    refused: (a: string, b: string) => `The point was not taught: ${a} is in contact with ${b}.`,
+    "solid(name)": "“{name}”",
+    solidTool: "the tool",
+    "solidLink(n: number)": "link {n}",
+    "refused(a, b)": "The point was not taught: {a} is in contact with {b}.",
     refusedHint: "Move until nothing is red, or allow it under Collision in the cell menu.",
-    held: (a: string, b: string) => `Stopped: ${a} would touch ${b}.`,
-    back: (a: string, b: string) => `Stopped before ${a} touches ${b}; going back to where there was room.`,
-    onTheWay: (a: string, b: string, percent: number) =>
-      `Not gone: after ${percent} % of the way ${a} would touch ${b}.`,
+    "held(a, b)": "Stopped: {a} would touch {b}.",
+    "back(a, b)": "Stopped before {a} touches {b}; going back to where there was room.",
+    "onTheWay(a, b, percent: number)": "Not gone: after {percent} % of the way {a} would touch {b}.",
     tooNear: "Not gone: the way comes too near to something to be proven free.",
     goHint: "Jog round it, or choose Find another way under Collision in the cell menu.",
-    blocked: (end: string, a: string, b: string) => `There is no way: at the ${end} ${a} is in contact with ${b}.`,
+    "blocked(end, a, b)":
+      "There is no way: at the {end, select, start {start} other {goal}} {a} is in contact with {b}.",
     noWay: "No free way was found.",
     hint: "Make room in the cell, or go there in parts by hand.",
     goes: {
@@ -80,11 +78,10 @@ export const checkWords = {
       searched: "It goes by a way round.",
     },
     wayRound: "Find a way round",
-    searching: (percent: number) => `Searching a way … ${percent} %`,
-    found: (points: number) =>
-      points === 0
-        ? "The step is a joint move now; nothing is in its way."
-        : `The step goes round over ${plural(points, "more point")}.`,
+    "searching(percent: number)": "Searching a way … {percent} %",
+    "found(points: number)":
+      "{points, plural, =0 {The step is a joint move now; nothing is in its way.} one {The step goes " +
+      "round over # more point.} other {The step goes round over # more points.}}",
     changed: "A way was found, but the program has changed meanwhile.",
     changedHint: "Search again.",
     trouble: "The search stopped without saying why.",
@@ -96,60 +93,59 @@ export const checkWords = {
     margin: "Joint margin",
     reach: "Reach",
     cycle: "Cycle",
-    reachOk: (n: number) => `${n} of ${n}`,
-    reachBad: (bad: number, all: number) => `${bad} of ${all} fail`,
+    "reachOk(n: number)": "{n} of {n}",
+    "reachBad(bad: number, all: number)": "{bad} of {all} fail",
     notMeasured: "not measured",
     checking: "Checking …",
-    percent: (p: number) => `Checking … ${p} %`,
+    "percent(p: number)": "Checking … {p} %",
     cancel: "Cancel check",
     again: "Check again",
-    repairAll: (n: number) => `Repair all (${n})`,
+    "repairAll(n: number)": "Repair all ({n})",
     fine: "Every step can be carried out.",
     none: "There is nothing to check yet. Add a step first.",
     notYet: "Not checked yet.",
-    others: (n: number) =>
-      n === 1
-        ? "Check against the other robot where it stands"
-        : `Check against the ${n} other robots where they stand`,
+    "others(n: number)":
+      "{n, plural, one {Check against the other robot where it stands} other {Check against the # other " +
+      "robots where they stand}}",
     assumptions: "What this rests on",
     cancelled: "The check was cancelled.",
     stale: "The program changed; it is being checked again.",
     why: "Why",
     whyNone: "Nothing stands in the way.",
-    more: (n: number) => `and ${n} more`,
-    affected: (n: number) => `${plural(n, "point")} ${n === 1 ? "is" : "are"} affected.`,
-    repaired: (n: number, left: number) =>
-      left === 0
-        ? `${plural(n, "repair")} applied. Every step can be carried out.`
-        : `${plural(n, "repair")} applied. ${plural(left, "step")} cannot be carried out even so.`,
+    "more(n: number)": "and {n} more",
+    "affected(n: number)": "{n, plural, one {# point is} other {# points are}} affected.",
+    "repaired(n: number, left: number)":
+      "{n, plural, one {# repair} other {# repairs}} applied. {left, plural, =0 {Every step can be " +
+      "carried out.} one {# step cannot be carried out even so.} other {# steps cannot be carried out " +
+      "even so.}}",
     noRepair: "No change was found that helps. The cards say what was tried.",
-    repairing: (p: number) => `Looking for the least changes … ${p} %`,
+    "repairing(p: number)": "Looking for the least changes … {p} %",
     waysOut: "Ways out",
     explaining: "Looking for ways out …",
     explainTip: "Each is tried on the whole program before it is offered",
-    showRepair: (n: number) => `Show ${n}`,
-    applyRepair: (n: number) => `Apply ${n}`,
+    "showRepair(n: number)": "Show {n}",
+    "applyRepair(n: number)": "Apply {n}",
     noneFound: "No single change was found that helps.",
     tried: "What was tried",
     ghost: "The ghost shows where the robot would be. 1 2 3 show, Esc hides.",
     ghostTouch: "The ghost shows where the robot would be.",
-    reaches: (joint: number, value: string) => `J${joint} to ${value}`,
-    cycleChange: (s: string) => `cycle ${s} s`,
-    room: (mm: string) => `${mm} mm of room`,
+    "reaches(joint: number, value)": "J{joint} to {value}",
+    "cycleChange(s)": "cycle {s} s",
+    "room(mm)": "{mm} mm of room",
     allGood: "every step can be carried out",
-    stillBad: (n: number) => `${plural(n, "step")} still bad`,
+    "stillBad(n: number)": "{n, plural, one {# step} other {# steps}} still bad",
     shown: "Preview. Esc to cancel.",
-    at: (s: string) => `at ${s} s`,
+    "at(s)": "at {s} s",
     baseMap: "Base position map",
     baseMapTip: "From where on the floor the points of the program could be reached",
     baseMapSome: "40 % of the points",
     baseMapAll: "all",
     baseMapRoom: "all, with 20° of room",
-    baseMapSearching: (p: number) => `Checking the best places … ${p} %`,
+    "baseMapSearching(p: number)": "Checking the best places … {p} %",
     baseMapNone: "From no place of the map the whole program can be carried out.",
     baseMapNoPoints: "The points of this program are joint angles: they move with the robot.",
-    baseMapBest: (x: string, y: string) => `Best place: ${x}, ${y} mm`,
-    baseMapSays: (roomy: number, all: number, s: string) => `${roomy} of ${all} with 20° of room, cycle ${s} s`,
+    "baseMapBest(x, y)": "Best place: {x}, {y} mm",
+    "baseMapSays(roomy: number, all: number, s)": "{roomy} of {all} with 20° of room, cycle {s} s",
     baseMapHere: "The robot stands at the best place of the map.",
     baseMapMove: "Move the robot there",
     baseMapConnected: "The connected robot stands where it stands.",
@@ -172,10 +168,10 @@ export const checkWords = {
     torques: "Torques",
     limit: "limit",
     percent: " %",
-    over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
-    s: (s: number) => s.toFixed(2),
+    "over(name, n: number)": "{name}, {n, plural, one {# finding} other {# findings}}",
+    "s(s: number)": "{s, number, ::.00 group-off}",
     seconds: "s",
-    joint: (n: number) => `J${n}`,
+    "joint(n: number)": "J{n}",
     deg: "°",
     degS: "°/s",
     start: "To the start",

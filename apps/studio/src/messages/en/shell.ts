@@ -25,7 +25,8 @@ export const shellWords = {
     name: "Twincell",
     notSafety: "Not a safety device.",
     notSafetyHint:
-      "Twincell may refuse a motion. It can never guarantee one: people and machines are protected by the robot's own safety functions.",
+      "Twincell may refuse a motion. It can never guarantee one: people and machines are protected by the " +
+      "robot's own safety functions.",
     loadingScene: "Loading 3D view …",
     sceneTrouble: "The 3D view could not start:",
     sceneHint: "Everything else works. A browser with WebGL 2 draws the cell.",
@@ -70,7 +71,7 @@ export const shellWords = {
   },
   view: {
     tcp: "TCP",
-    inFrame: (frame: string) => `TCP in ${frame}`,
+    "inFrame(frame)": "TCP in {frame}",
     tcpAxes: ["X", "Y", "Z", "Rx", "Ry", "Rz"],
     hintTrace: [
       ["Click", "traces an edge"],
@@ -100,7 +101,7 @@ export const shellWords = {
     close: "Close camera",
     main: "Overview",
     camera: "Main or close camera",
-    touching: (names: string) => `Contact: ${names}.`,
+    "touching(names)": "Contact: {names}.",
   },
   welcome: {
     title: "Start with a cell",
@@ -109,10 +110,9 @@ export const shellWords = {
     drop: "Drop a CAD file",
     dropSays: "STEP, STL, OBJ, PLY, DAE, GLB and robot folders become objects; cells and programs open.",
     connect: "Connect a controller",
-    connectSays: (robot: string) =>
-      `The virtual ${robot} is connected; other controllers, real ones too, are added in Run.`,
+    "connectSays(robot)": "The virtual {robot} is connected; other controllers, real ones too, are added in Run.",
     robot: "Choose a robot",
-    robotSays: (robots: number) => `Or take one of the ${robots} robots of the library.`,
+    "robotSays(robots: number)": "Or take one of the {robots} robots of the library.",
     connected: "connected",
     empty: "Empty cell",
     choose: "Choose a file",
@@ -134,7 +134,7 @@ export const shellWords = {
   shortcuts: { title: "Keyboard", open: "Keyboard shortcuts" },
   coach: {
     title: "First trace",
-    of: (n: number, all: number) => `${n} of ${all}`,
+    "of(n: number, all: number)": "{n} of {all}",
     skip: "Do not show this again",
     next: "Next",
     steps: [
@@ -208,17 +208,34 @@ export const shellWords = {
     repairAll: "Repair all",
     nextProblem: "Next problem",
     previousProblem: "Previous problem",
-    showRepair: (n: number) => `Show way out ${n}`,
+    "showRepair(n: number)": "Show way out {n}",
     hideRepair: "Hide the way out shown",
     plots: "Plots",
     up: "Move the step up",
     down: "Move the step down",
     rename: "Rename",
     startRun: "Run on the virtual controller",
-    frame: (name: string) => `Jog in ${name}`,
+    "frame(name)": "Jog in {name}",
     coach: "Show the coach again",
     box: "Add a box",
     deselect: "Leave",
+  },
+  language: {
+    menu: "Language",
+    "command(name)": "Language: {name}",
+    busy: "The language cannot be changed now: the page is loaded again for it.",
+    busyHint: "Stop the program and disconnect the controllers first.",
+  },
+  keys: {
+    Control: "Ctrl",
+    Shift: "Shift",
+    Alt: "Alt",
+    Space: "Space",
+    Delete: "Del",
+    Escape: "Esc",
+    Enter: "Enter",
+    Home: "Home",
+    Pause: "Pause",
   },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

@@ -1,6 +1,3 @@
-const ms = (s: number): string => `${Math.round(s * 1000)} ms`;
-const seconds = (s: number): string => `${s.toFixed(1)} s`;
-
 /** What is said about cameras. */
 export const videoWords = {
   title: "Cameras",
@@ -14,7 +11,8 @@ export const videoWords = {
   other: "Through the server",
   phone: "Add a phone or another computer",
   phoneSays:
-    "Open this address there, allow the camera, and prop it at the robot. Browsers warn about the certificate, which was made here.",
+    "Open this address there, allow the camera, and prop it at the robot. Browsers warn about the " +
+    "certificate, which was made here.",
   phoneAlone: "This studio is served to this computer alone. Start npx twincell serve --lan to add a phone.",
   sameMachine: "A camera of this computer can be shown to every studio of this server, too:",
   cameraPage: "Open the camera's page",
@@ -25,10 +23,10 @@ export const videoWords = {
     gone: "The server does not answer.",
   },
   noneServer: "No camera shows itself through the server now.",
-  qr: (address: string) => `QR code of ${address}`,
+  "qr(address)": "QR code of {address}",
   copy: "Copy the address",
   copied: "The address was copied.",
-  panel: (name: string) => `Picture of ${name}`,
+  "panel(name)": "Picture of {name}",
   close: "Close the picture",
   full: "Full screen",
   leaveFull: "Leave full screen",
@@ -37,27 +35,30 @@ export const videoWords = {
   asking: "The browser asks whether the camera may be used …",
   connecting: "Waiting for the server …",
   waiting: "Waiting for the first picture …",
-  cameraGone: (name: string) => `The camera “${name}” is gone. The last picture stays until it comes back.`,
+  "cameraGone(name)": "The camera “{name}” is gone. The last picture stays until it comes back.",
   takenAway: "The camera was taken away or its permission withdrawn.",
-  unreadable: (why: string) => `A picture could not be unpacked: ${why}.`,
+  "unreadable(why)": "A picture could not be unpacked: {why}.",
   noSafety: "A view, no safety device.",
-  age: (s: number) => (Number.isNaN(s) ? "age unknown" : ms(s)),
-  late: (s: number) => `Late: what you see was ${ms(s)} ago.`,
-  still: (s: number) => `Picture stands still for ${seconds(s)}.`,
+  ageUnknown: "age unknown",
+  "late(s: number)": "Late: what you see was {s, number, ::scale/1000 precision-integer group-off} ms ago.",
+  "still(s: number)": "Picture stands still for {s, number, ::.0 group-off} s.",
   ageTip:
     "From the light on the sensor to this screen, worked out for every picture from its time stamp and the clocks.",
-  uncertain: (s: number) => `± ${ms(s)}`,
-  stages: (taken: string, up: string, down: string, unpacked: string) =>
-    `camera ${taken} · to the server ${up} · to here ${down} · unpacked ${unpacked}`,
-  ms,
+  "uncertain(s: number)": "± {s, number, ::scale/1000 precision-integer group-off} ms",
+  "stages(taken, up, down, unpacked)": "camera {taken} · to the server {up} · to here {down} · unpacked {unpacked}",
+  "ms(s: number)": "{s, number, ::scale/1000 precision-integer group-off} ms",
   hold: "Hold the twin back to the picture",
   holdTip:
-    "Draws every robot as it was when the picture was taken, so that both agree. Commands and STOP are never held back.",
-  heldBack: (s: number) => `The twin is drawn ${ms(s)} late, as the picture is.`,
+    "Draws every robot as it was when the picture was taken, so that both agree. Commands and STOP are " +
+    "never held back.",
+  "heldBack(s: number)":
+    "The twin is drawn {s, number, ::scale/1000 precision-integer group-off} ms late, as the picture is.",
   heldNot: "The twin is not held back: the picture's time is not known, or too old.",
   measure: "Measure the latency",
   measureSays:
-    "Point the camera at the pattern, so that it fills a third of the picture, and keep it steady for ten seconds. The pattern is a clock: it tells how long ago it was drawn when it comes back in the picture. The brighter the room, the more pictures count.",
+    "Point the camera at the pattern, so that it fills a third of the picture, and keep it steady for " +
+    "ten seconds. The pattern is a clock: it tells how long ago it was drawn when it comes back in the " +
+    "picture. The brighter the room, the more pictures count.",
   pattern: "Time code: black and white blocks that change ten times a second",
   sees: {
     read: "The pattern is read.",
@@ -74,7 +75,8 @@ export const videoWords = {
   },
   glass: "Glass to glass",
   glassSays:
-    "From a change in front of the camera to the first picture on this screen that shows it: display, camera, packing, network, unpacking and half a picture's period.",
+    "From a change in front of the camera to the first picture on this screen that shows it: display, " +
+    "camera, packing, network, unpacking and half a picture's period.",
   anew: "Begin anew",
   camera: {
     title: "Twincell camera",
@@ -86,9 +88,9 @@ export const videoWords = {
     back: "Back",
     front: "Front",
     named: "Phone",
-    watched: (n: number) => (n === 0 ? "Nobody looks now." : n === 1 ? "One studio looks." : `${n} studios look.`),
-    rate: (n: number, width: number, height: number) => `${n} pictures a second, ${width} × ${height}`,
+    "watched(n: number)": "{n, plural, =0 {Nobody looks now.} one {One studio looks.} other {# studios look.}}",
+    "rate(n: number, width: number, height: number)": "{n} pictures a second, {width} × {height}",
     connecting: "Waiting for the server …",
     awake: "Keep this page open and in front.",
   },
-} as const;
+};

@@ -22,6 +22,7 @@ import { select } from "../../stores/selection.ts";
 import { sound } from "../../stores/sound.ts";
 import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { theLive } from "../live.ts";
 import { worldFromTarget } from "../planning/target-pose.ts";
 import { contactAt, namesOf } from "./hand-motion.ts";
@@ -181,4 +182,4 @@ export const isEditing = (): boolean => editing !== null;
 const insideLimits = ({ arm }: Robot, q_rad: readonly number[]): boolean =>
   q_rad.length === arm.joints.length &&
   arm.joints.every(({ limits }, joint) => q_rad[joint]! >= limits.lower_rad && q_rad[joint]! <= limits.upper_rad);
-const millimetres = (length_m: number): string => (length_m * 1000).toFixed(0);
+const millimetres = (length_m: number): string => fixed(length_m * 1000, 0);

@@ -14,6 +14,7 @@ import { collideStore } from "../../stores/collide.ts";
 import { robotOf } from "../../stores/document.ts";
 import { sound } from "../../stores/sound.ts";
 import { words } from "../../messages/index.ts";
+import { solidName } from "../../messages/phrases.ts";
 import { interpolateTo } from "./joint-interpolation.ts";
 import type { FreeWay } from "../robot/held-jog.ts";
 import { showJoints, theLive } from "../live.ts";
@@ -83,7 +84,7 @@ export function wayOut(from_rad: ArrayLike<number>, way: readonly (readonly numb
 /** A contact as a person reads it. */
 export function namesOf({ a, b }: Contact): readonly [string, string] {
   const objects = cellStore.getState().document?.objects ?? [];
-  return [words.collide.solid(a, objects), words.collide.solid(b, objects)];
+  return [solidName(a, objects), solidName(b, objects)];
 }
 
 /**

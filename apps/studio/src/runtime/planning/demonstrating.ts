@@ -25,7 +25,7 @@ let asked = 0;
 function hired(name: string): Worker {
   const fresh = new Worker(new URL("../../workers/demonstration.worker.ts", import.meta.url), { type: "module" });
   const failed = (sentence: string): void => {
-    notify("bad", words.demonstration.notFiltered(name, sentence));
+    notify("bad", words.demonstration.notFiltered(name, sentence || words.demonstration.workerEnded));
     closeDemonstration();
   };
   fresh.addEventListener("message", ({ data }: MessageEvent<FromDemonstrator>) => {

@@ -6,6 +6,7 @@ import { commit, programOf, robotOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
 import { repairStep } from "../../stores/program.ts";
 import { words } from "../../messages/index.ts";
+import { solidName } from "../../messages/phrases.ts";
 import type { FromPlanner, PlanTask } from "../../workers/plan-messages.ts";
 import { interpolateAlong } from "../jog/joint-interpolation.ts";
 import { theLive } from "../live.ts";
@@ -91,8 +92,8 @@ export function goAround(robot: Robot, to_rad: ArrayLike<number>, done: (arrived
           "bad",
           words.collide.blocked(
             answer.end,
-            words.collide.solid(answer.contact.a, document.objects),
-            words.collide.solid(answer.contact.b, document.objects),
+            solidName(answer.contact.a, document.objects),
+            solidName(answer.contact.b, document.objects),
           ),
           words.collide.hint,
         );

@@ -16,6 +16,7 @@ import { stationOf } from "../../stores/stations.ts";
 import { onStop } from "../../stores/stop.ts";
 import { viewStore } from "../../stores/view.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { browserRunStorage } from "../history/archive.ts";
 import { writtenProgram } from "../planning/posting.ts";
 import { showJoints } from "../live.ts";
@@ -115,7 +116,7 @@ export async function startRun(from?: Branch, despite: readonly string[] = []): 
   switch (outcome.kind) {
     case "done":
       sound("done");
-      notify("done", words.run.done(((performance.now() - began) / 1000).toFixed(2)), words.run.kept);
+      notify("done", words.run.done(fixed((performance.now() - began) / 1000, 2)), words.run.kept);
       break;
     case "stopped":
       notify("warn", words.run.stopped(outcome.why.sentence), outcome.why.hint);

@@ -26,6 +26,7 @@ import {
 import { shortName } from "../../stores/robot.ts";
 import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { browserRunStorage, listRuns, openRunFile, type RunFile } from "../history/archive.ts";
 import { noteOther } from "./drawn-robots.ts";
 import { hostAt, onServers, type Told } from "./station-hosts.ts";
@@ -526,7 +527,7 @@ function foresee({ station: id, ahead }: EventOf<"ahead">): void {
   if (ghost === known.ghost && !(ahead?.problem && due(`${id} ahead`))) return;
   changeStation(id, {
     ghost,
-    foreseen: ahead?.problem ? words.stations.inTime(ahead.problem.in_s.toFixed(1), ahead.problem.sentence) : "",
+    foreseen: ahead?.problem ? words.stations.inTime(fixed(ahead.problem.in_s, 1), ahead.problem.sentence) : "",
   });
 }
 

@@ -21,6 +21,7 @@ import {
   type Step,
 } from "@twincell/core";
 import { createRunRecorder, latencyMeter, type RunRecorder } from "@twincell/recording";
+import { words } from "../../messages/index.ts";
 import { controlStore } from "../../stores/control.ts";
 import { historyStore, type RunEnding } from "../../stores/history.ts";
 import { shortName } from "../../stores/robot.ts";
@@ -93,7 +94,7 @@ export function prepareRun(
     const [first] = interpreted.faults;
     return {
       kind: "not-understood",
-      sentence: first ? `Line ${first.line}, column ${first.column}: ${first.sentence}` : "",
+      sentence: first ? words.export.line(first.line, first.column, first.sentence) : "",
       hint: "Export the text and look at that line.",
     };
   }
@@ -194,7 +195,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   const virtual: VirtualController = createVirtualController({
     robot,
     scheduler,
-    name: `Virtual ${shortName(robot)}`,
+    name: words.connection.chip(shortName(robot), true),
     worldFromBase,
     start_rad: theLive().q_rad,
   });

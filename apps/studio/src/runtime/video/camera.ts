@@ -1,3 +1,5 @@
+import { words } from "../../messages/index.ts";
+
 /** A camera that was allowed, or why not. */
 export type OpenedCamera =
   | { readonly kind: "opened"; readonly stream: MediaStream; readonly name: string }
@@ -32,7 +34,7 @@ export async function openCamera(wanted: string): Promise<OpenedCamera> {
       audio: false,
       video: { ...which, width: { ideal: WIDTH }, height: { ideal: HEIGHT }, frameRate: { ideal: PER_SECOND } },
     });
-    return { kind: "opened", stream, name: stream.getVideoTracks()[0]?.label || "Camera" };
+    return { kind: "opened", stream, name: stream.getVideoTracks()[0]?.label || words.video.camera.which };
   } catch (problem) {
     return {
       kind: "refused",

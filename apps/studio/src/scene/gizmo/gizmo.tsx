@@ -9,6 +9,7 @@ import { buildStore, type BuildState } from "../../stores/build.ts";
 import { commit } from "../../stores/document.ts";
 import { selectionStore } from "../../stores/selection.ts";
 import { words } from "../../messages/index.ts";
+import { fixed } from "../../messages/numbers.ts";
 import { type Interaction, type PointerLabel, sayAtPointer } from "../interaction.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { snapped, takenOf, type Taken, withMoved } from "./moved.ts";
@@ -316,7 +317,9 @@ class Drag {
       });
       const found = onto
         .filter(({ kind }) => kind !== "grid")
-        .map(({ kind, name }) => words.build.onto[kind as "floor"](name));
+        .map(({ kind, name }) =>
+          kind === "face" || kind === "middle" ? words.build.onto[kind](name) : words.build.onto.floor,
+        );
       return [...parts, ...found].join(" · ") + typed;
     }
     if (this.controls.mode === "rotate") {
@@ -330,4 +333,4 @@ class Drag {
     );
   }
 }
-const number = (value: number): string => (Math.abs(value) < 0.05 ? "0.0" : value.toFixed(1).replace("-", "−"));
+const number = (value: number): string => fixed(Math.abs(value) < 0.05 ? 0 : value, 1).replace("-", "−");

@@ -23,6 +23,8 @@ import { measurePoint } from "./measure-point.ts";
 import { pathUnder } from "./path-under.ts";
 import { nearestThing } from "./raycast.ts";
 import { thingWords } from "./thing-words.ts";
+import { fixed } from "../../messages/numbers.ts";
+import { say } from "../../messages/index.ts";
 
 const CLICK_PX = 5;
 const EDGE_TOLERANCE_PX = 9;
@@ -306,7 +308,7 @@ export function Pointer({
     gl.domElement.style.cursor = "grabbing";
     sayAtPointer(
       label,
-      outcome.kind === "blocked" ? outcome.sentence : moveWords(grip, theLive().worldFromTcp),
+      outcome.kind === "blocked" ? say(outcome.sentence) : moveWords(grip, theLive().worldFromTcp),
       outcome.kind === "blocked" ? "blocked" : "plain",
       interaction.px,
       interaction.py,
@@ -346,4 +348,4 @@ function moveWords(grip: Grip, now: Pose<"world", "tcp">): string {
   const angle = 2 * Math.atan2(turn[0] * axis[0] + turn[1] * axis[1] + turn[2] * axis[2], turn[3]);
   return `ΔR${grip.part[1]!.toUpperCase()} ${signed((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI)}°`;
 }
-const signed = (value: number): string => `${value < -0.05 ? "−" : "+"}${Math.abs(value).toFixed(1)}`;
+const signed = (value: number): string => `${value < -0.05 ? "−" : "+"}${fixed(Math.abs(value), 1)}`;

@@ -24,7 +24,7 @@ function nameOf(thing: Thing, document: CellDocument): string {
     case "robot":
       return robotById(document.robot.id)?.name ?? document.robot.id;
     case "link":
-      return WORDS.link(thing.link, WORDS.links[thing.link], robotById(document.robot.id)?.name ?? document.robot.id);
+      return linkWords(thing.link, robotById(document.robot.id)?.name ?? document.robot.id);
     case "tool":
       return WORDS.tool(document.tool);
     case "object":
@@ -34,4 +34,9 @@ function nameOf(thing: Thing, document: CellDocument): string {
     case "step":
       return thing.id;
   }
+}
+
+function linkWords(link: number, robot: string): string {
+  const name = WORDS.links[link];
+  return name === undefined ? WORDS.link(link, robot) : WORDS.linkNamed(link, name, robot);
 }

@@ -6,6 +6,7 @@ import { feedOf, hideCamera, showCamera } from "../../runtime/video/feeds.ts";
 import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel } from "../../stores/video.ts";
 import { words } from "../../messages/index.ts";
+import { ageWords } from "../../messages/phrases.ts";
 import { WORDS } from "../words.ts";
 import type { KeyAim } from "./grabber.ts";
 import { Key, Row } from "./keys.tsx";
@@ -73,7 +74,7 @@ export function CameraPanel({
     since_s.current += dt_s;
     if (since_s.current < SAY_EVERY_S) return;
     since_s.current = 0;
-    const age = now.kind === "none" || now.kind === "still" ? "" : words.video.age(now.age_s);
+    const age = now.kind === "none" || now.kind === "still" ? "" : ageWords(now.age_s);
     const warns =
       problem ||
       (now.kind === "late"

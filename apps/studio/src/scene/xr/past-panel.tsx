@@ -10,6 +10,8 @@ import { WORDS } from "../words.ts";
 import type { KeyAim } from "./grabber.ts";
 import { Key, Row } from "./keys.tsx";
 import { RoomPanel, Words } from "./room-panel.tsx";
+import { fixed } from "../../messages/numbers.ts";
+import { say } from "../../messages/index.ts";
 
 const WIDTH_PX = 900;
 const LINE_M = 0.82;
@@ -19,7 +21,7 @@ const MOST_RUNS = 4;
 const MOST_MARKS = 120;
 const QUIET = "#b9c4ca";
 const WARNS = "#ffcf70";
-const clock = (t_s: number): string => `${Math.floor(t_s / 60)}:${(t_s % 60).toFixed(1).padStart(4, "0")}`;
+const clock = (t_s: number): string => `${Math.floor(t_s / 60)}:${fixed(t_s % 60, 1).padStart(4, "0")}`;
 /** With the stick all the way over, so much of what is shown passes in a second; near its middle, slowly. */
 const STICK_PART_PER_S = 0.25;
 const STICK_DEAD = 0.15;
@@ -98,7 +100,9 @@ const NowKey = () => (
 function Says() {
   const recorded = useStore(historyStore, state => state.moment.recorded);
   const message = useStore(historyStore, state => state.moment.message);
-  return <Words color={recorded && !message ? QUIET : WARNS}>{!recorded ? WORDS.gap : message || WORDS.stick}</Words>;
+  return (
+    <Words color={recorded && !message ? QUIET : WARNS}>{!recorded ? WORDS.gap : say(message) || WORDS.stick}</Words>
+  );
 }
 
 /** Nothing is open: the last runs to choose from. */

@@ -9,7 +9,9 @@ import { jogStore } from "../../stores/jog.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { solidName } from "../pick/thing-words.ts";
 import { toScene } from "../world-space.ts";
+import { capital } from "../../messages/phrases.ts";
 import { WORDS } from "../words.ts";
+import { say } from "../../messages/index.ts";
 
 /** Capitals are 23 mm high at this distance and nearer, and as large to the eye farther away. */
 const READ_FROM_M = 1.2;
@@ -23,12 +25,14 @@ const eye = new Vector3();
 
 /** Why the tool does not go on, said at the tool and turned to whoever looks. */
 export function WhyCard() {
-  const blocked = useStore(jogStore, state => state.blocked?.sentence);
+  const blocked = useStore(jogStore, ({ blocked: now }) => now && say(now.sentence));
   const contact = useStore(watchStore, state => state.contacts[0]);
   const document = useStore(cellStore, state => state.document);
   const sentence =
     blocked ??
-    (contact && document ? WORDS.touch(solidName(contact[0], document), solidName(contact[1], document)) : undefined);
+    (contact && document
+      ? capital(WORDS.touch(solidName(contact[0], document), solidName(contact[1], document)))
+      : undefined);
   const card = useRef<Group>(null);
   useFrame(({ camera }) => {
     const at = card.current;

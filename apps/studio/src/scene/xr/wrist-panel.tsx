@@ -20,6 +20,8 @@ import { watchStore } from "../../stores/watch.ts";
 import { WORDS } from "../words.ts";
 import { aimAt, type KeyAim } from "./grabber.ts";
 import { Key, Row, WORDS_PX } from "./keys.tsx";
+import { fixed } from "../../messages/numbers.ts";
+import { say } from "../../messages/index.ts";
 
 const READ_EVERY_S = 0.3;
 /** Capitals of 32 px are 12 mm high: at half an arm's length as large as 29 mm at 1.2 m. */
@@ -152,7 +154,7 @@ function Said() {
   );
   const other = useStore(stationStore, ({ stations }) => {
     const said = stations.find(station => station.notice !== "");
-    return said ? `${said.name}: ${said.notice}` : "";
+    return said ? `${said.name}: ${say(said.notice)}` : "";
   });
   return notice || other ? (
     <Text id="said" fontSize={WORDS_PX} color="#ffcf70">
@@ -176,12 +178,8 @@ function ReadOut() {
     since.current = 0;
     seen.current = revision;
     const tilt = Math.acos(Math.max(-1, Math.min(1, 2 * (quaternion[0] ** 2 + quaternion[1] ** 2) - 1)));
-    const [x, y, z] = position.map(metres =>
-      millimetres(metres)
-        .toFixed(1)
-        .replace(/^-0\.0$/, "0.0"),
-    );
-    setText([`X ${x}  Y ${y}`, `Z ${z} mm, ${WORDS.tilt} ${degrees(tilt).toFixed(1)}°`]);
+    const [x, y, z] = position.map(metres => fixed(millimetres(metres), 1).replace(/^-(0.0)$/, "$1"));
+    setText([`X ${x}  Y ${y}`, `Z ${z} mm, ${WORDS.tilt} ${fixed(degrees(tilt), 1)}°`]);
   });
   return (
     <Container flexDirection="column">

@@ -1,0 +1,27 @@
+import type { Translation } from "../catalogue.ts";
+import type { en } from "../en/index.ts";
+import { cellWords } from "./cell.ts";
+import { checkWords } from "./check.ts";
+import { controlWords } from "./control.ts";
+import { direct } from "./direct.ts";
+import { recordsWords } from "./records.ts";
+import { scene } from "./scene.ts";
+export { sentences } from "./sentences.ts";
+import { shellWords } from "./shell.ts";
+import { teachWords } from "./teach.ts";
+import { textWords } from "./text.ts";
+import { videoWords } from "./video.ts";
+
+/** German, as robot programmers say it; nobody is addressed, what to do stands in the infinitive. */
+export const catalogue: Translation<typeof en> = {
+  ...shellWords,
+  ...cellWords,
+  ...teachWords,
+  ...checkWords,
+  ...controlWords,
+  ...recordsWords,
+  direct,
+  scene,
+  text: textWords,
+  video: videoWords,
+};

@@ -1,0 +1,56 @@
+import type { Translation } from "../catalogue.ts";
+import type { textWords as english } from "../en/text.ts";
+
+/** German: a vendor's text as a program of the cell. */
+export const textWords = {
+  title: "Programmtext",
+  files: "Programmtext",
+  points: "Punkte",
+  problems: "Probleme",
+  layout: "Ansicht",
+  side: "Nebeneinander",
+  view: "3D",
+  kind: "Programm als",
+  steps: "Schritte",
+  text: "Text",
+  follows: "folgt der Schreibmarke",
+  trouble: "Der Text konnte nicht gelesen werden. Noch einmal öffnen.",
+  reading: "Wird gelesen …",
+  "opened(name, files: number)":
+    "{name} ist jetzt ein Programm der Zelle ({files, plural, one {# Datei} other {# Dateien}}).",
+  openedHint: "Es läuft aus seinem Text und bleibt Byte für Byte erhalten. „Schritte“ wandelt eine Kopie um.",
+  "noLanguage(name)": "{name}: Die Sprache wurde nicht erkannt.",
+  noLanguageHint: "Unter „Programmtext importieren oder ausführen“ einfügen und dort die Sprache wählen.",
+  "binary(name)": "{name} ist ein binäres Programm, kein Text.",
+  binaryHint:
+    "Auf der Steuerung als Text exportieren (FANUC: .LS, mit MakeTP oder dem ASCII-Lader), dann diesen öffnen.",
+  "empty(name)": "{name} ist leer.",
+  "clean(lines: number)": "Nichts zu beheben. {lines, plural, one {# Zeile} other {# Zeilen}} geprüft.",
+  "line(line: number)": "Zeile {line}",
+  "lineOf(line: number, lines: number)": "Zeile {line} von {lines}",
+  "drag(point)": "Das Werkzeug in 3D ziehen, dann {point} „Nachteachen“",
+  noPoints: "Kein geteachter Punkt in diesen Dateien.",
+  noPoint: "In dieser Zeile steht kein Punkt: einen aus der Liste wählen.",
+  "notReached(point)": "Keine Bewegung führt direkt zu {point}.",
+  thisPoint: "diesem Punkt",
+  notReachedHint: "Ein Punkt wird im Werkzeug und Frame einer Bewegung nachgeteacht, die zu ihm führt.",
+  "literal(line: number)": "der Punkt in Zeile {line}",
+  "unnamed(line: number)": "Zeile {line}",
+  "same(point)": "{point} liegt schon dort, wo der Roboter steht.",
+  "touched(point, uses: number)":
+    "{uses, plural, one {{point} wurde nachgeteacht.} other {{point} wurde nachgeteacht; # Bewegungen " +
+    "führen dorthin.}}",
+  "uses(n: number)": "{n, plural, =0 {keine Bewegung} one {# Bewegung} other {# Bewegungen}}",
+  goTo: "Hinfahren",
+  touchUp: "Nachteachen",
+  save: "Dateien sichern",
+  "saveFile(name)": "{name} sichern",
+  "saved(name)": "{name} wurde Byte für Byte gesichert.",
+  "changes(n: number)": "{n, plural, =0 {wie geöffnet} one {# Zeile geändert} other {# Zeilen geändert}}",
+  changed: "geändert",
+  converted: "Eine Kopie des Textes wurde in Schritte umgewandelt. Der Text bleibt ein Programm der Zelle.",
+  run: "Text ausführen",
+  encoding: { "utf-8": "UTF-8", "latin-1": "Latin-1", "shift-jis": "Shift-JIS" },
+  readOnly: "Diese Schritte sind, was der Text tut.",
+  readOnlyHint: "Den Text ändern, oder mit „Schritte“ eine Kopie umwandeln.",
+} satisfies Translation<typeof english>;

@@ -1,0 +1,24 @@
+import { cellWords } from "./cell.ts";
+import { checkWords } from "./check.ts";
+import { controlWords } from "./control.ts";
+import { direct } from "./direct.ts";
+import { recordsWords } from "./records.ts";
+import { scene } from "./scene.ts";
+import { shellWords } from "./shell.ts";
+import { teachWords } from "./teach.ts";
+import { textWords } from "./text.ts";
+import { videoWords } from "./video.ts";
+
+/** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
+export const en = {
+  ...shellWords,
+  ...cellWords,
+  ...teachWords,
+  ...checkWords,
+  ...controlWords,
+  ...recordsWords,
+  direct,
+  scene,
+  text: textWords,
+  video: videoWords,
+};
