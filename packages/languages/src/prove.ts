@@ -92,6 +92,15 @@ export function proveText(
       sentence: `${file.name} stops in line ${fault.line}, column ${fault.column}: ${fault.sentence}`,
     };
   }
+  // What is written here is carried out to the last statement: a controller's own values are all it may count on.
+  const kept = interpreted.notExecuted?.find(({ expected }) => expected !== "a value in the text");
+  if (kept !== undefined)
+    return {
+      kind: "not-executed",
+      file: file.name,
+      faults: [kept],
+      sentence: `${file.name} is not carried out as it stands in line ${kept.line}: ${kept.sentence}`,
+    };
   const decides = capabilitiesUsed(program).has("if");
   const steps: ProvenStep[] = [];
   for (const trial of decides ? TRIALS : TRIALS.slice(0, 1)) {

@@ -12,10 +12,13 @@ const MOST_NOTICES = 500;
  */
 export class Notices {
   readonly faults: TextFault[] = [];
+  /** Notices of which one is told a topic; they come into the list as they are set. */
+  readonly byTopic: Map<string, TextFault>;
   private readonly seen = new Set<string>();
 
   constructor(before: readonly TextFault[] = []) {
     this.faults.push(...before);
+    this.byTopic = new ListedNotices(this.faults);
   }
 
   add({ line, column }: TextPlace, expected: string, sentence: string): void {
@@ -28,5 +31,17 @@ export class Notices {
   /** Something that only the controller knows, and what was taken in its place. */
   notGiven(at: TextPlace, sentence: string): void {
     this.add(at, NOT_GIVEN, sentence);
+  }
+}
+
+class ListedNotices extends Map<string, TextFault> {
+  private readonly list: TextFault[] | undefined;
+  constructor(list: TextFault[]) {
+    super();
+    this.list = list;
+  }
+  override set(topic: string, fault: TextFault): this {
+    this.list?.push(fault);
+    return super.set(topic, fault);
   }
 }

@@ -85,32 +85,36 @@ export function executeText(
     }
   } catch (cause) {
     if (!(cause instanceof Fault)) throw cause;
-    if (!(cause instanceof WaitsOutside))
-      return {
-        kind: "not-understood",
-        faults: [
-          {
-            line,
-            column: 1,
-            expected: "a statement that can be executed",
-            sentence: `${cause.message} ${cause.hint}`.trim(),
-          },
-        ],
-      };
-    cut = `Line ${line}: the text looks at its inputs and goes on when they change.`;
+    // It goes on when an input changes: what was done up to there is what it does until then.
+    if (cause instanceof WaitsOutside) return executed(`${cause.message} ${cause.hint}`.trim());
+    return {
+      kind: "not-understood",
+      faults: [
+        {
+          line,
+          column: 1,
+          expected: "a statement that can be executed",
+          sentence: `${cause.message} ${cause.hint}`.trim(),
+        },
+      ],
+    };
   }
-  return {
-    kind: "executed",
-    program: {
-      ...emptyProgram(robot.id, name),
-      tools: { ...context.tools },
-      frames: { ...context.frames },
-      signals: { ...context.signals },
-      steps,
-    },
-    lines,
-    ...(cut === undefined ? {} : { cut }),
-    skipped,
-    notExecuted,
-  };
+  return executed(cut);
+
+  function executed(why: string | undefined): ExecutedText {
+    return {
+      kind: "executed",
+      program: {
+        ...emptyProgram(robot.id, name),
+        tools: { ...context.tools },
+        frames: { ...context.frames },
+        signals: { ...context.signals },
+        steps,
+      },
+      lines,
+      ...(why === undefined ? {} : { cut: why }),
+      skipped,
+      notExecuted,
+    };
+  }
 }

@@ -9,7 +9,7 @@ export const rapid: Dialect = skippingDialect({
   id: "rapid",
   brand: "ABB",
   name: "RAPID",
-  extensions: [".mod", ".pgf", ".prg", ".sys"],
+  extensions: [".mod", ".modx", ".pgf", ".prg", ".sys", ".sysx"],
   maturity: "experimental",
   cannot: CANNOT,
   emit: (program, robot, worldFromBase = identity()) => emitRapid(program, robot, worldFromBase),

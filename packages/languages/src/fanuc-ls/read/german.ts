@@ -31,7 +31,7 @@ const WORDS: readonly (readonly [german: RegExp, english: string])[] = [
   [/\b(?:ZEIT NACH)\b/g, "TA"],
   [/\bWEG VOR\b/g, "DB"],
   [/\bVersch(?:ieb)?,(?=\s*PR)/gi, "Offset,"],
-  [/\bWKZ_Versch(?:ieb)?,(?=\s*PR)/gi, "Tool_Offset,"],
+  [/\bWKZ_(?:Versch(?:ieb)?|Offset)\s*,(?=\s*PR)/gi, "Tool_Offset,"],
   [/\bmax_Geschw\./gi, "max_speed"],
   [/\bsek\b/g, "sec"],
   [/\[\+\]/g, " OR "],

@@ -250,7 +250,8 @@ class RecordReader {
     const { fields, uf, ut, config, place, others, remote } = this;
     const joints = fields.has("J1");
     const names = joints ? JOINTS : CARTESIAN;
-    if (!names.every(name => fields.has(name)))
+    // A position of further groups alone says nothing of the arm.
+    if (fields.size > 0 && !names.every(name => fields.has(name)))
       throw new TextError(place, names.join(", "), `The position P[${this.number}] lacks one of ${names.join(", ")}.`);
     const values = names.map(name => fields.get(name));
     const known = values.filter(value => value !== undefined);

@@ -443,8 +443,11 @@ const READERS: Readonly<Record<string, Reader>> = {
     cursor.expect("UF#");
     const user = bracketed(cursor);
     const through = [position(cursor), position(cursor), position(cursor)] as const;
+    cursor.accept("MTOOL");
     return { kind: "frame", user, through };
   },
+  SSFTOF: shown("the shift of the seam search is switched off"),
+  SSFTON: away("SSFTON"),
   MEMOF: shown("the memory of shifts is switched off"),
   MEMON: shown("the memory of shifts is switched on"),
   CLRSENS: shown("the arc sensor is reset"),

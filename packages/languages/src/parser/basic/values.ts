@@ -113,6 +113,7 @@ const NUMBERS: Readonly<Record<string, (a: number, b: number) => number | boolea
   "*": (a, b) => a * b,
   "/": (a, b) => a / b,
   "^": (a, b) => a ** b,
+  "**": (a, b) => a ** b,
   mod: (a, b) => a % b,
   "=": (a, b) => a === b,
   "==": (a, b) => a === b,

@@ -114,7 +114,9 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
     const run = function* (signals?: Signals): Generator<Executed, void> {
       const asked = new AskedSignals(signals);
       try {
-        yield* script.run(script.machine(declared, asked, notices));
+        const machine = script.machine(declared, asked, notices);
+        machine.notes = notices.byTopic;
+        yield* script.run(machine);
       } catch (cause) {
         // What turns in a circle while inputs are looked at goes on when they change.
         if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
@@ -141,10 +143,11 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         const outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
         const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine);
         const { groups, routines, pallets } = outline;
+        const kept = [...opened.kept, ...machine.notes.values()];
         return {
           kind: "parsed",
           executable: () => executable(opened.script, opened.kept),
-          warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
+          warnings: [...outline.warnings, ...kept, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...declared, groups, pallets, routines, steps },
         };
       } catch (cause) {

@@ -22,6 +22,7 @@ const RULES: ExpressionRules = {
     "/": 5,
     mod: 5,
     "^": 7,
+    "**": 7,
   },
   prefix: { not: 2, "-": 6, "+": 6 },
   constants: { true: true, on: true, high: true, false: false, off: false, low: false },
@@ -48,6 +49,7 @@ const RULES: ExpressionRules = {
   args: (cursor, depth) => readPlainArguments(cursor, depth, RULES),
 };
 const SIGNS = [
+  "**",
   "<=",
   ">=",
   "<>",
@@ -314,6 +316,7 @@ class SpelReader extends BasicReader {
       return { kind: "do", name: word, args: to.kind === "call" ? to.args : [], ...place };
     }
     // A function may be called with its arguments behind its name.
+    if (this.asText && second === "(" && this.functions.has(word)) return this.calling(at);
     if (this.asText && second !== "=" && this.functions.has(word)) {
       cursor.advance();
       return given(this.values());

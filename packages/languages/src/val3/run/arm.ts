@@ -1,5 +1,14 @@
-import { branchOf, identity, linkPoses, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
-import { fromPose, times, toPose, type Trsf } from "./trsf.ts";
+import {
+  branchOf,
+  flangePose,
+  identity,
+  linkPoses,
+  solveAll,
+  type Branch,
+  type Pose,
+  type Robot,
+} from "@twincell/core";
+import { fromPose, inverted, times, toPose, type Trsf } from "./trsf.ts";
 
 /** Configuration words of a point. */
 export interface Config {
@@ -49,6 +58,12 @@ export class ControllerArm {
     const q = fitting ?? all[0]!;
     this.joints_rad = q;
     return { branch: branchOf(robot, q), fits: fitting !== undefined };
+  }
+
+  /** The flange in the world of the controller; undefined where nobody knows the joints. */
+  flange(): Trsf | undefined {
+    if (this.joints_rad === undefined) return undefined;
+    return times(inverted(this.baseFromWorld), fromPose(flangePose(this.robot.arm, this.joints_rad)));
   }
 
   private fits(q: readonly number[], { shoulder, elbow, wrist }: Config): boolean {
