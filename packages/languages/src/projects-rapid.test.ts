@@ -173,8 +173,12 @@ test("what no open module declares: a tool, a work object and a point are named;
   expect(
     run(files("    MoveL pWeld,v100,fine,tool0;", "    MoveL Offs(CRobT(),0,0,5),v100,fine,tool0;")).does[0],
   ).toMatch(/^Weld\.mod 7: The robot was to be at a point that no open file declares\./);
+  const ask = files('    TPReadFK answer,"Go?","yes","no","","","";', "    IF answer=1 MoveL p1,v100,fine,tool0;");
+  expect(run(ask)).toMatchObject({ does: [], cut: expect.stringMatching(/waits until somebody answers "answer"/) });
+  expect(run(ask, { answer: 1 }).does).toEqual(["lin 300 0 250 in world"]);
+  expect(run(ask, { answer: 2 }).does).toEqual([]);
   expect(
-    run(files('    TPReadFK answer,"Go?","yes","no","","","";', "    IF answer=1 MoveL p1,v100,fine,tool0;")).does,
+    run(files("    SocketReceive socket1\\Str:=answer;", "    IF answer=1 MoveL p1,v100,fine,tool0;")).does,
   ).toEqual(['Weld.mod 7: "answer" is what another machine answers: it is not known here.']);
   expect(run(files("    ReachAround p1;")).does[0]).toMatch(/^Weld\.mod 6: "ReachAround" is no instruction of RAPID/);
 });

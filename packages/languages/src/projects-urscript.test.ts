@@ -1,6 +1,7 @@
 /*
  * Scripts as PolyScope exports them and as people put them into its programs. Written for these tests; what the robot
- * does is worked out by hand: degrees of the joints, millimetres in the cell (the base of the script turned by 180°), and the order of lines and motions.
+ * does is worked out by hand: degrees of the joints, millimetres in the cell (the base of the script turned by 180°),
+ * and the order of lines and motions.
  */
 import { robotById } from "@twincell/core";
 import { expect, test } from "vitest";

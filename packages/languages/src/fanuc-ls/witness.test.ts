@@ -171,9 +171,19 @@ describe("executing TP", () => {
     expect(there("F U T, 0, 0, 0").target).toMatchObject({
       branch: { shoulder: "front", elbow: "up", wrist: "negative" },
     });
-    expect(faultOf(listing("A", ["J P[1] 10% FINE"], [at(1, [640, 0, 0, 180, 0, 0], "N U B, 0, 0, 0")]))).toMatchObject(
-      { sentence: "The position is not reached in its configuration." },
-    );
+    // Kept as steps it is refused; executed as it is the nearest posture is taken, which is said.
+    const behind = listing("A", ["J P[1] 10% FINE"], [at(1, [640, 0, 0, 180, 0, 0], "N U B, 0, 0, 0")]);
+    expect(fanucLs.parse(behind, robot)).toMatchObject({
+      faults: [{ sentence: "The position is not reached in its configuration." }],
+    });
+    expect(fanucLs.interpret(behind, robot)).toMatchObject({
+      kind: "ready",
+      notExecuted: expect.arrayContaining([
+        expect.objectContaining({
+          sentence: expect.stringMatching(/does not reach the position in its configuration/),
+        }),
+      ]) as unknown,
+    });
     const turned = there("N U T, 0, 0, -1").target;
     expect("q" in turned && turned.q.map(angle => Math.round(deg(angle)))).toEqual([10, 20, 30, 20, -60, 30 - 360]);
   });

@@ -9,7 +9,7 @@ export const urScript: Dialect = skippingDialect({
   id: "urscript",
   brand: "Universal Robots",
   name: "URScript",
-  extensions: [".script"],
+  extensions: [".script", ".urscript"],
   maturity: "experimental",
   cannot: CANNOT,
   emit: (program, robot, worldFromBase = identity()) => emitUrScript(program, robot, worldFromBase),

@@ -100,15 +100,14 @@ export const OUTSIDE = new Set([
   "egmreset",
   "hollowwristreset",
 ]);
+/** Questions to the operator. */
+export const QUESTIONS = new Set(["tpreadfk", "tpreadnum", "tpreaddnum"]);
 /** Instructions by which something outside gives data a value. */
 export const ANSWERS = new Set([
   "socketreceive",
   "readanybin",
   "readrawbytes",
   "unpackrawbytes",
-  "tpreadfk",
-  "tpreadnum",
-  "tpreaddnum",
   "readcfgdata",
   "getsysdata",
   "getdatavalue",

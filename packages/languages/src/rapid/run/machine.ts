@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, WaitsOutside, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -27,7 +27,7 @@ import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
 import { inverted, times, toPose, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
-import { ANSWERS, GRIPPER, HALTS, OUTSIDE, REFUSED, SILENT } from "./instructions.ts";
+import { ANSWERS, GRIPPER, HALTS, OUTSIDE, QUESTIONS, REFUSED, SILENT } from "./instructions.ts";
 import { KIND_OF_FUNCTION, KIND_OF_WAIT, Lines } from "./lines.ts";
 import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
 import { predefined } from "./predefined.ts";
@@ -739,6 +739,7 @@ export class Machine extends BlockMachine<Value> {
         return this.defineTrigger(args);
       default:
         if (SILENT.has(name)) return undefined;
+        if (QUESTIONS.has(name)) return this.asked(args, at);
         if (ANSWERS.has(name)) return this.answered(name, args, at);
         if (OUTSIDE.has(name)) {
           this.remark(
@@ -778,6 +779,16 @@ export class Machine extends BlockMachine<Value> {
       to: args.has("dop") ? value !== 0 : value,
       distance_mm: args.has("start") ? Number.NaN : args.number(1, "a distance"),
     });
+    return undefined;
+  }
+
+  /** The operator is asked: the program goes on with an answer that is given by hand, as an input of that name. */
+  private asked(args: Arguments, at: TextPlace): undefined {
+    const to = args.given(0, "a datum");
+    const name = to.kind === "variable" ? this.spelt(to.name) : "answer";
+    const answer = this.lines.given(name);
+    if (typeof answer !== "number") throw new WaitsOutside(at, "program", name);
+    this.store(to, answer);
     return undefined;
   }
 
