@@ -13,7 +13,7 @@ import { createHash } from "node:crypto";
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, extname, join, relative } from "node:path";
 import { LIBRARY, type Dialect, type Robot, type TextFault } from "@twincell/core";
-import { DIALECTS, EXAMPLE_PULSES, NOT_GIVEN, executeText, informDialect, joinFiles } from "@twincell/languages";
+import { DIALECTS, NOT_GIVEN, executeText, informDialect, joinFiles } from "@twincell/languages";
 import { textFileOf, type TextFile } from "@twincell/project";
 
 /** Which dialect the words of a file belong to, its ending being shared by several. */
@@ -153,7 +153,7 @@ function evenly(candidates: readonly Candidate[]): readonly Candidate[] {
 
 function dialectFor(id: string): Dialect {
   // Pulses per degree come from the cell's own controller; the example's stand in for them here.
-  if (id === "inform") return informDialect({ pulses: EXAMPLE_PULSES });
+  if (id === "inform") return informDialect({ examplePulses: true });
   return DIALECTS.find(dialect => dialect.id === id)!;
 }
 

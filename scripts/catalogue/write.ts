@@ -36,6 +36,8 @@ interface Description {
   readonly tip?: string;
   readonly world?: string;
   readonly home_deg?: readonly number[];
+  /** What the maker's controllers need: `SectionData`. */
+  readonly section?: unknown;
   /** Where witness.py cannot compute it. */
   readonly unverified?: true;
 }
@@ -139,6 +141,16 @@ function table(arm: SerialArm, baseFromWorld: Pose | undefined): string {
   return lines.join("\n");
 }
 
+/** A value of JSON as these files write it. */
+function literal(value: unknown): string {
+  if (Array.isArray(value)) return `[${value.map(literal).join(", ")}]`;
+  if (value !== null && typeof value === "object")
+    return `{ ${Object.entries(value)
+      .map(([key, each]) => `${key}: ${literal(each)}`)
+      .join(", ")} }`;
+  return JSON.stringify(value);
+}
+
 /** Names of base and tip of every arm that was written, for the witness. */
 const framesOf = new Map<string, readonly [base: string, tip: string]>();
 
@@ -156,7 +168,7 @@ function entryOf(description: Description, folder: string): string {
         inverse(chainOf(robot, description, world).arm.joints[0]!.parentFromJoint as Pose),
       )
     : undefined;
-  const { home_deg, unverified } = description;
+  const { home_deg, unverified, section } = description;
   const given = Object.entries(args ?? {}).map(([key, value]) => ` ${key}:=${value}`);
   return [
     "  {",
@@ -167,6 +179,7 @@ function entryOf(description: Description, folder: string): string {
     `    frames: [${JSON.stringify(chain.base)}, ${JSON.stringify(chain.tip)}],`,
     `    repository: ${JSON.stringify(repository)},`,
     `    path: ${JSON.stringify(`${path}${given.join("")}`)},`,
+    ...(section === undefined ? [] : [`    section: ${literal(section)},`]),
     `    table: \`\n${table(chain.arm, baseFromWorld)}\`,`,
     "  },",
   ].join("\n");

@@ -1,7 +1,7 @@
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { basename, extname, join, relative } from "node:path";
 import { LIBRARY, identity, type LineShapes, type Skipped } from "@twincell/core";
-import { DIALECTS, EXAMPLE_PULSES, dialectById, dialectsFor, informDialect } from "@twincell/languages";
+import { DIALECTS, dialectById, dialectsFor, informDialect } from "@twincell/languages";
 import { keptResults } from "../soak/kept.ts";
 
 /**
@@ -87,7 +87,7 @@ for (const id of readdirSync(FOLDER)) {
   if (ONLY !== undefined && id !== ONLY) continue;
   const robot = LIBRARY.find(each => dialectsFor(each).some(dialect => dialect.id === id));
   // Jobs in pulses are read with the example's pulses: where they end says nothing, what they say does.
-  const dialect = id === "inform" ? informDialect({ pulses: EXAMPLE_PULSES }) : dialectById(id);
+  const dialect = id === "inform" ? informDialect({ examplePulses: true }) : dialectById(id);
   if (dialect === undefined || robot === undefined)
     throw new Error(`${id} is none of ${DIALECTS.map(each => each.id).join(", ")}.`);
   const shapes: LineShapes = dialect.lines!;

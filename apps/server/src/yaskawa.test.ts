@@ -6,7 +6,7 @@
 import {
   createRealController,
   createVirtualYaskawa,
-  YASKAWA_EXAMPLE_SCALE,
+  yaskawaExampleScale,
   yaskawaAdapter,
   type VirtualYaskawa,
   type YaskawaAdapterOptions,
@@ -70,7 +70,7 @@ async function driver(host: string, ports: VirtualYaskawa["ports"], options: Par
       network,
       host,
       ports,
-      scale: YASKAWA_EXAMPLE_SCALE,
+      scale: yaskawaExampleScale(robotById("yaskawa_gp8")!),
       stale_s: BUSY_S,
       ...options,
     }),

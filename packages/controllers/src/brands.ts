@@ -1,8 +1,8 @@
-import { LIBRARY, type Robot } from "@twincell/core";
+import { LIBRARY, catalogueRobots, type Robot } from "@twincell/core";
 import { abb, abbOverEgm } from "./abb/index.ts";
 import { fanuc } from "./fanuc/index.ts";
 import { kuka, kukaOverRsi } from "./kuka/index.ts";
-import type { DriverKind } from "./driver/index.ts";
+import { drivesRobot, type DriverKind } from "./driver/index.ts";
 import { staubli } from "./staubli/index.ts";
 import { staubliCs7 } from "./staubli-cs7/index.ts";
 import { universalRobots } from "./ur/index.ts";
@@ -16,6 +16,6 @@ export const driverKindById = (id: string): DriverKind | undefined => ALL_DRIVER
 /** Brands whose robots that one is. */
 export const driverKindsFor = (vendor: string): readonly DriverKind[] =>
   DRIVER_KINDS.filter(kind => kind.vendor === vendor);
-/** Robots of the library that a brand drives. */
-export const robotsOf = ({ vendor, drives }: Pick<DriverKind, "vendor" | "drives">): readonly Robot[] =>
-  LIBRARY.filter(robot => robot.vendor === vendor && (drives?.(robot) ?? true));
+/** Robots of the library, and of a catalogue that was added, that a driver moves. */
+export const robotsOf = (kind: Pick<DriverKind, "id" | "drives">): readonly Robot[] =>
+  [...LIBRARY, ...catalogueRobots()].filter(robot => drivesRobot(kind, robot));

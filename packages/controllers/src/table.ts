@@ -8,6 +8,7 @@ export interface Driver {
   readonly name: string;
   /** Folder of its code and of its tests. */
   readonly folder: string;
+  readonly id: string;
   readonly vendor: string;
   readonly drives?: (robot: Robot) => boolean;
   readonly cannot: readonly Cannot[];
@@ -25,6 +26,7 @@ export const DRIVERS: readonly Driver[] = DRIVER_KINDS.flatMap((brand): Driver[]
   const { name, vendor, drives, cannot, otherWays = [] } = brand;
   const driver: Driver = {
     name,
+    id: brand.id,
     folder: brand.id,
     vendor,
     ...(drives ? { drives } : {}),

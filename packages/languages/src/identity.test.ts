@@ -24,7 +24,29 @@ test("no language writes, reads or runs for an arm that only has the id of a lib
       expect(read.kind === "not-understood" && read.faults[0]!.sentence).toMatch(/is not the ABB IRB 120/);
     }
   }
-  const right = robotFromArm(irb120.arm, { id: "abb_irb120", home_rad: irb120.home_rad });
+  const right = robotFromArm(irb120.arm, {
+    id: "abb_irb120",
+    home_rad: irb120.home_rad,
+    vendorSection: irb120.vendorSection!,
+  });
   const rapid = DIALECTS.find(dialect => dialect.id === "rapid")!;
   expect(rapid.emit(program, right)).toMatchObject({ kind: "emitted" });
+});
+
+test("no language writes, reads or runs where the vendor section is not that of the arm: both flanges are named", () => {
+  const wrong = {
+    ...irb120,
+    id: "own",
+    vendorSection: {
+      ...irb120.vendorSection!,
+      postures: [{ axes_deg: [10, 20, 30, 40, 50, 60], flange_mm: [400, 100, 300] as const }],
+    },
+  };
+  for (const dialect of DIALECTS) {
+    expect(dialect.emit(program, wrong), dialect.id).toMatchObject({ kind: "cannot" });
+    for (const read of [dialect.parse("", wrong), dialect.interpret("", wrong)])
+      expect(read.kind === "not-understood" && read.faults[0]!.sentence).toMatch(
+        /has the flange at \(400\.0, 100\.0, 300\.0\) mm, that of the ABB .* is at \(.*\) mm: \d+\.\d mm apart/,
+      );
+  }
 });

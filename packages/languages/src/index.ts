@@ -13,12 +13,10 @@ import { val3 } from "./val3/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
 export {
-  EXAMPLE_PULSES,
   inform,
   informDialect,
   informExamplePulses,
   type InformOptions,
-  type PulseData,
 } from "./inform/index.ts";
 export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";

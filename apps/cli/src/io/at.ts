@@ -1,5 +1,5 @@
 import { ALL_DRIVER_KINDS, driverKindById, type DriverKind } from "@twincell/controllers";
-import { robotById, type CommandOutcome, type Robot } from "@twincell/core";
+import { addOwnRobot, falseIdentity, robotById, type CommandOutcome, type Robot } from "@twincell/core";
 import type { Client, ConnectionInfo, EventOf, Request } from "@twincell/protocol";
 import {
   joinHost,
@@ -53,7 +53,7 @@ export const AT_HELP = `  --at HOST[:PORT]  a running server (twincell serve; po
   --station ID      which robot of the server; left out where it has one
   --token T         of twincell token add, where the server asks for one (or TWINCELL_TOKEN)
   --driver D        goes to a controller directly, without a server: ${ALL_DRIVER_KINDS.map(({ id }) => id).join(", ")}
-  --robot R         with --driver: the model (an id of twincell robots); --port-NAME N for ports that are not the vendor's own
+  --robot R         with --driver: the model, an id of twincell robots or a robot file with a vendor section; --port-NAME N for ports that are not the vendor's own
   --cell CELL       with --driver: the saved cell it stands in, which its guard keeps it from`;
 export const COMMANDER_HELP = `${AT_HELP}
   --speed PERCENT   override while this command runs
@@ -187,6 +187,9 @@ async function atServer(options: Given, at: string): Promise<RobotAt> {
 
 async function atController(options: Given, at: string, driver: DriverKind, watching: boolean): Promise<RobotAt> {
   const { robot } = await robotOf(options);
+  const wrong = falseIdentity(robot);
+  if (wrong !== undefined) throw new UseFault(wrong, "Give the file of the robot itself, with its own vendor section.");
+  if (robotById(robot.id) !== robot) addOwnRobot(robot);
   const cellPath = options.text("cell");
   const cell = cellPath === undefined ? undefined : await readCell(cellPath);
   const { host: address, ports } = addressOf(options, at, driver);

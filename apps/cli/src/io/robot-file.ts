@@ -1,5 +1,6 @@
-import { existsSync, statSync } from "node:fs";
-import { basename, resolve } from "node:path";
+import { existsSync, readFileSync, statSync } from "node:fs";
+import { basename, dirname, join, resolve } from "node:path";
+import { ALL_DRIVER_KINDS } from "@twincell/controllers";
 import {
   compose,
   inverse,
@@ -7,6 +8,7 @@ import {
   parseRobot,
   pose,
   robotFromArm,
+  withVendorFile,
   type LinkSolid,
   type Pose,
   type Robot,
@@ -23,6 +25,7 @@ import {
   type UrdfChain,
   type UrdfRobot,
 } from "@twincell/formats";
+import { DIALECTS } from "@twincell/languages";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
 import { UseFault } from "./usage.ts";
@@ -75,7 +78,7 @@ async function fromTable(path: string, base: string | undefined, tip: string | u
     frames: { base: "base", tip: "flange" },
     assumptions: answer.assumptions,
   });
-  return { robot: identified(robot), baseFromRoot: pose(), solids: () => undefined };
+  return { robot: withSection(path, robot), baseFromRoot: pose(), solids: () => undefined };
 }
 
 /**
@@ -91,6 +94,7 @@ function identified(robot: Robot): Robot {
     id: known.id,
     name: known.name,
     vendor: known.vendor,
+    ...(known.vendorSection === undefined ? {} : { vendorSection: known.vendorSection }),
     home_rad: known.home_rad,
     baseFromVendorWorld: known.baseFromVendorWorld,
     assumptions: [
@@ -100,25 +104,61 @@ function identified(robot: Robot): Robot {
   };
 }
 
-/** The content of a robot file, docs/add-a-robot.md; undefined for a table, which states its convention. */
-function robotData(path: string, text: string): unknown {
-  if (!/\.json$/i.test(path) || /\.dh\.json$/i.test(path)) return undefined;
-  let value: unknown;
+/**
+ * The vendor section that stands beside a description, NAME.vendor.json; where there is none, that of the library robot
+ * that the arm is.
+ */
+function withSection(path: string, robot: Robot): Robot {
+  const beside = join(dirname(path), `${idOf(path)}.vendor.json`);
+  if (!existsSync(beside)) return identified(robot);
+  const answer = withVendorFile(robot, jsonOf(beside, readFileSync(beside, "utf8")));
+  if (answer.kind === "not-of-this-robot") throw new UseFault(`${beside}: ${faultText(answer.faults)}`);
+  return withKnownWays(beside, answer.robot);
+}
+
+/** Refuses languages and drivers that there are not: a misspelt one would be missing without a word. */
+function withKnownWays(path: string, robot: Robot): Robot {
+  const { languages = [], drivers = [] } = robot.vendorSection ?? {};
+  const check = (what: string, ids: readonly string[], known: readonly string[]): void => {
+    const strange = ids.find(id => !known.includes(id));
+    if (strange !== undefined)
+      throw new UseFault(`${path}: there is no ${what} "${strange}".`, `There are: ${known.join(", ")}.`);
+  };
+  check(
+    "language",
+    languages,
+    DIALECTS.map(({ id }) => id),
+  );
+  check(
+    "driver",
+    drivers,
+    ALL_DRIVER_KINDS.map(({ id }) => id),
+  );
+  return robot;
+}
+
+const faultText = (faults: readonly { readonly path: string; readonly sentence: string }[]): string =>
+  faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ");
+
+function jsonOf(path: string, text: string): unknown {
   try {
-    value = JSON.parse(text);
+    return JSON.parse(text);
   } catch (cause) {
     throw new UseFault(`${path} is not JSON: ${cause instanceof Error ? cause.message : String(cause)}.`);
   }
+}
+
+/** The content of a robot file, docs/add-a-robot.md; undefined for a table, which states its convention. */
+function robotData(path: string, text: string): unknown {
+  if (!/\.json$/i.test(path) || /\.dh\.json$/i.test(path)) return undefined;
+  const value = jsonOf(path, text);
   return typeof value === "object" && value !== null && "convention" in value ? undefined : value;
 }
 
 function fromData(path: string, data: unknown, base: string | undefined, tip: string | undefined): RobotFromFile {
   const answer = parseRobot(data);
-  if (answer.kind === "not-a-robot")
-    throw new UseFault(
-      `${path}: ${answer.faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ")}`,
-    );
-  const { robot } = answer;
+  if (answer.kind === "not-a-robot") throw new UseFault(`${path}: ${faultText(answer.faults)}`);
+  const robot = withKnownWays(path, answer.robot);
   const { frames } = robot;
   if (base !== undefined && base !== frames.base)
     throw new UseFault(`${robot.name} has no frame "${base}".`, `Its base is ${frames.base}.`);
@@ -141,14 +181,13 @@ function fromDescription(
   const answer = readRobot(whole, disk, { args });
   if (answer.kind !== "read") throw refused(path, answer);
   const chain = chainOf(path, answer.robot, undefined, tip);
-  const robot = identified(
-    robotFromArm(chain.arm, {
-      id: idOf(path),
-      frames: { base: chain.base, tip: chain.tip },
-      assumptions: [...answer.warnings, ...chain.assumptions],
-      ...(chain.masses ? { masses: chain.masses } : {}),
-    }),
-  );
+  const described = robotFromArm(chain.arm, {
+    id: idOf(path),
+    frames: { base: chain.base, tip: chain.tip },
+    assumptions: [...answer.warnings, ...chain.assumptions],
+    ...(chain.masses ? { masses: chain.masses } : {}),
+  });
+  const robot = withSection(path, described);
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
     const meshes = loadMeshes(solidShapes(chain), whole, disk);

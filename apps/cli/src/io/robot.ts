@@ -26,7 +26,8 @@ export const ROBOT_OPTIONS = {
 
 /** How `--robot` is explained in the help of a command. */
 export const ROBOT_HELP = `R is an id of "twincell robots", a URDF, a xacro (its arguments: --arg name:=value, again for more), a D-H table
-(.dh.json, .dh.csv, .dh.txt) or a robot file (.json). LINK: the base is the root link when absent, the tip tool0, else flange, else the end of the longest chain.`;
+(.dh.json, .dh.csv, .dh.txt) or a robot file (.json); what its controllers need stands in its vendor section, or beside a
+URDF as NAME.vendor.json (docs/robot-files.md). LINK: the base is the root link when absent, the tip tool0, else flange, else the end of the longest chain.`;
 
 /** The robot that was asked for, and how the asked base and tip lie to its own. */
 export interface ChosenRobot {
@@ -87,7 +88,11 @@ export async function programRobot(options: Given): Promise<RobotToRun | undefin
   };
   if (asked === undefined || asked === robot.frames.base) return { robot, solids: said };
   return {
-    robot: robotFromArm(movedBase(robot.arm, baseFromRoot), { ...robot, frames: { ...robot.frames, base: asked } }),
+    robot: robotFromArm(movedBase(robot.arm, baseFromRoot), {
+      ...robot,
+      frames: { ...robot.frames, base: asked },
+      baseFromVendorWorld: compose(baseFromRoot as Pose<"base", "base">, robot.baseFromVendorWorld),
+    }),
     solids: said,
   };
 }

@@ -1,10 +1,12 @@
 import type { CellDefinition, PreparedJob } from "@twincell/controllers";
-import type { Pose, Program } from "@twincell/core";
+import type { Pose, Program, Robot } from "@twincell/core";
 
 /** Robots and languages go by their ids: both sides have the library. */
 export interface PrepareJobRequest {
   readonly id: number;
   readonly robot: string;
+  /** The robot itself, where it came from a file. */
+  readonly own: Robot | null;
   readonly dialect: string | null;
   readonly program: Program;
   readonly start_rad: Float64Array;

@@ -1,3 +1,4 @@
+import { isOwnRobot } from "@twincell/core";
 import { Worker } from "node:worker_threads";
 import type { PreparedJob, PrepareJob } from "@twincell/controllers";
 import type { PrepareJobAnswer, PrepareJobRequest } from "./lay-out-messages.ts";
@@ -50,6 +51,7 @@ export function prepareJobInWorker(): { readonly layOut: PrepareJob; close(): vo
         started().postMessage({
           id,
           robot: robot.id,
+          own: isOwnRobot(robot) ? robot : null,
           dialect: dialect?.id ?? null,
           program,
           start_rad,

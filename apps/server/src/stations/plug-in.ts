@@ -13,6 +13,7 @@ export const plugInFor = (robot: Robot): DriverKind => ({
   dialect: "l-irl",
   ports: { [PLUG_IN]: PLUG_IN_PORT },
   vendor: robot.vendor,
+  drives: () => true,
   cannot: [{ row: "texts", because: "A plug-in takes steps, no program texts." }],
   face: createPlugInAdapter,
   virtual: () =>

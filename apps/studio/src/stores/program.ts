@@ -93,6 +93,22 @@ export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, to
     },
   ]);
 }
+/** Records an arc through one posture to another. */
+export function recordArcTo(via_rad: ArrayLike<number>, q_rad: ArrayLike<number>, tool: string): boolean {
+  const target = (angles: ArrayLike<number>): MoveStep["target"] =>
+    tool === "flange" ? { q: Array.from(angles) } : { q: Array.from(angles), tool };
+  return addSteps(words.undo.recordPoint, program => [
+    {
+      id: freshStepId(program, "p"),
+      type: "move",
+      path: "circ",
+      speed: { mps: 0.1 },
+      blend_m: 0,
+      via: target(via_rad),
+      target: target(q_rad),
+    },
+  ]);
+}
 export const addWait = (s: number): boolean =>
   addSteps(words.undo.addWait, program => [{ id: freshStepId(program, "w"), type: "wait", s }]);
 export const addGripper = (closed: boolean): boolean =>

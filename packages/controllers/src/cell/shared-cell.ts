@@ -115,9 +115,9 @@ export function createSharedCell({
 }: SharedCellOptions = {}): SharedCell {
   const members = new Set<Member>();
   const solidCache = new SolidCache();
-  const solids = new Map<string, LinkSolid[]>();
+  const solids = new Map<string, readonly LinkSolid[]>();
   let opened = 0;
-  const solidsOf = (robot: Robot): LinkSolid[] => {
+  const solidsOf = (robot: Robot): readonly LinkSolid[] => {
     const known = solids.get(robot.id) ?? linkSolids(robot);
     solids.set(robot.id, known);
     return known;

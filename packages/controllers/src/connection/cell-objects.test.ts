@@ -105,7 +105,7 @@ describe.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
       });
       await scheduler.elapse(6);
       expect(cell.touched).toBe(0);
-      expect(cell.farthest_rad).toBeGreaterThan(0.1);
+      expect(cell.farthest_rad).toBeGreaterThan(0.05);
       expect(station.guard.state).toMatchObject({ motion: "at-rest", trip: "none" });
       station.close();
     });

@@ -16,9 +16,9 @@ import {
   type Step,
 } from "@twincell/core";
 import type { CellMember } from "../cell/index.ts";
-import { createGuard, type Guard, type GuardState, type Commander } from "../guard/index.ts";
+import { createGuard, PlannedPath, type Guard, type GuardState, type Commander } from "../guard/index.ts";
 import { listeners } from "../listeners.ts";
-import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
+import { createTwin, type Deviation, type Twin } from "../twin/index.ts";
 import { createAhead, type Ahead } from "./ahead.ts";
 import { deviates, disconnected } from "./words.ts";
 import { DONE } from "../outcomes.ts";
@@ -140,7 +140,7 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
   const name = options.name ?? controller.name;
   const notices = listeners<Refusal>();
   const real: RealController | null = "link" in controller ? controller : null;
-  let follower: PlanFollower | null = null;
+  let path: PlannedPath | null = null;
   let alarmed = false;
   let override = 1;
   /** The same controller, which takes a text where steps are asked for. */
@@ -152,6 +152,18 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
           isMoving: () => controller.isMoving(),
           run: (steps, context) => (steps instanceof TextOnItsWay ? steps.start() : controller.run(steps, context)),
         };
+  const deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
+
+  // First of all: the guard asks where on its path the robot is.
+  const unwatch = controller.onSample(sample => {
+    ({ override } = sample);
+    path?.take(sample.q_rad);
+    deviation.plan_rad = path?.off_rad ?? NaN;
+    deviation.command_rad = sample.target_rad ? largest(sample.q_rad, sample.target_rad, n) : NaN;
+    const worst_rad = Math.max(orZero(deviation.plan_rad), orZero(deviation.command_rad));
+    if (worst_rad > alarm_rad && !alarmed) notices.call(deviates(name, worst_rad, alarm_rad));
+    alarmed = worst_rad > alarm_rad;
+  });
   const guard = createGuard({
     controller: handing,
     scheduler,
@@ -167,16 +179,6 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
   });
   const twin = createTwin({ real: controller, scheduler, name });
   const ahead = createAhead({ robot, name, scheduler, place: options.place ?? null });
-  const deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
-
-  const unwatch = controller.onSample(sample => {
-    ({ override } = sample);
-    deviation.plan_rad = follower ? follower.take(sample.q_rad) : NaN;
-    deviation.command_rad = sample.target_rad ? largest(sample.q_rad, sample.target_rad, n) : NaN;
-    const worst_rad = Math.max(orZero(deviation.plan_rad), orZero(deviation.command_rad));
-    if (worst_rad > alarm_rad && !alarmed) notices.call(deviates(name, worst_rad, alarm_rad));
-    alarmed = worst_rad > alarm_rad;
-  });
   const unlink = real?.onLink(({ state }) => {
     if (state === "lost") guard.linkLost();
   });
@@ -210,11 +212,12 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
     steps: Iterable<Step>,
     { program, plan, findings = [] }: RobotJob,
   ): Promise<CommandOutcome> {
-    const following = plan ? new PlanFollower(plan, n) : null;
-    follower = following;
+    const following = plan ? new PlannedPath(plan, n) : null;
+    path = following;
+    guard.follow(following);
     if (options.place && plan && following) {
       options.place.path = (in_s, out) => {
-        samplePlan(plan, Math.min(plan.duration_s, following.at_s + in_s * override), out);
+        samplePlan(plan, Math.min(plan.duration_s, following.at + in_s * override), out);
         return true;
       };
     }
@@ -222,7 +225,7 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
     const stopLooking =
       plan && following
         ? ahead.follow(plan, findings, () => {
-            progress.at_s = following.at_s;
+            progress.at_s = following.at;
             progress.rate = override;
             return progress;
           })
@@ -231,7 +234,8 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
       return await seat.robot.run(steps, program);
     } finally {
       stopLooking?.();
-      follower = null;
+      path = null;
+      guard.follow(null);
       if (options.place) options.place.path = null;
     }
   }

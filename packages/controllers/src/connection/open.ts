@@ -1,4 +1,5 @@
 import {
+  falseIdentity,
   pose,
   unrolled,
   type CommandOutcome,
@@ -11,7 +12,13 @@ import {
   type Signals,
   type Step,
 } from "@twincell/core";
-import { createRealController, type DriverKind, type ControllerData, type PortNumbers } from "../driver/index.ts";
+import {
+  createRealController,
+  drivesRobot,
+  type DriverKind,
+  type ControllerData,
+  type PortNumbers,
+} from "../driver/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
@@ -110,29 +117,34 @@ export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
 
+/** Why a robot does not stand on a controller of that kind, by section and kinematics; null where it does. */
+function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
+  const wrong = falseIdentity(robot);
+  if (wrong !== undefined)
+    return {
+      code: "station.other-robot",
+      sentence: wrong,
+      hint: "Give the file of the robot itself, with its own vendor section.",
+    };
+  if (drivesRobot(kind, robot)) return null;
+  const drivers = robot.vendorSection?.drivers ?? [];
+  return {
+    code: "station.other-brand",
+    sentence:
+      robot.vendorSection === undefined
+        ? `${robot.name} does not stand on a controller of ${kind.name}: its file has no vendor section.`
+        : drivers.length === 0
+          ? `${robot.name} does not stand on a controller of ${kind.name}.`
+          : `${robot.name} does not stand on a controller of ${kind.name}; its drivers are ${drivers.join(", ")}.`,
+    hint: `Choose another controller or another robot, or give its file a vendor section with the driver ${kind.id}.`,
+  };
+}
+
 /** Opens a station of that brand. It is not connected yet. */
 export async function openRobotConnection(options: OpenOptions): Promise<OpenedDriver> {
   const { brand, robot, scheduler, dialect, worldFromBase } = options;
-  if (robot.vendor !== brand.vendor) {
-    return {
-      kind: "refused",
-      why: {
-        code: "station.other-brand",
-        sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`,
-        hint: "Choose a robot of that brand.",
-      },
-    };
-  }
-  if (brand.drives?.(robot) === false) {
-    return {
-      kind: "refused",
-      why: {
-        code: "station.other-brand",
-        sentence: `${robot.name} does not stand on a controller of ${brand.name}.`,
-        hint: `Choose another controller of ${brand.vendor}, or another robot.`,
-      },
-    };
-  }
+  const stranger = otherRobot(brand, robot);
+  if (stranger !== null) return { kind: "refused", why: stranger };
   const readCell = (document: unknown): CellRead =>
     options.readCell?.(document, robot, worldFromBase) ?? { kind: "refused", why: readsNoCells };
   let cell: CellDefinition | null = null;

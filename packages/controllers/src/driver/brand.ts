@@ -1,11 +1,12 @@
-import type {
-  CommandOutcome,
-  Interpreted,
-  OperatingMode,
-  Robot,
-  SafetyState,
-  Scheduler,
-  SignalLine,
+import {
+  sectionForDriver,
+  type CommandOutcome,
+  type Interpreted,
+  type OperatingMode,
+  type Robot,
+  type SafetyState,
+  type Scheduler,
+  type SignalLine,
 } from "@twincell/core";
 import type { Network } from "../transport/index.ts";
 import type { Cannot } from "./cannot.ts";
@@ -152,9 +153,9 @@ export interface DriverKind {
   readonly ports: PortNumbers;
   /** What a person must say of a real controller before it can be driven. */
   readonly data?: readonly ConnectionParameter[];
-  /** Vendor of the robots it drives, as robots name it. */
+  /** Vendor of the controllers. */
   readonly vendor: string;
-  /** Whether its controllers are known to move that robot of the vendor's; all of them when left out. */
+  /** Whether its controllers move that robot; left out, those whose vendor section names the driver. */
   readonly drives?: (robot: Robot) => boolean;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
@@ -168,3 +169,7 @@ export interface DriverKind {
   face(options: AdapterOptions): ControllerAdapter;
   virtual(options: VendorVirtualOptions): Promise<StartedDriver>;
 }
+
+/** Whether a driver moves a robot: its vendor section says so, and nothing in it is more than the driver can say. */
+export const drivesRobot = ({ id, drives }: Pick<DriverKind, "id" | "drives">, robot: Robot): boolean =>
+  drives?.(robot) ?? sectionForDriver(robot, id) !== undefined;

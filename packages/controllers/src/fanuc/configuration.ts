@@ -1,5 +1,17 @@
-import { branchOf, degrees, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
+import {
+  branchOf,
+  degrees,
+  solveAll,
+  type Branch,
+  type Pose,
+  type Robot,
+  sectionForDriver,
+  axesOfJoints,
+  wristAboveZero,
+} from "@twincell/core";
 import { rmiNumber, rmiPart } from "./codec-rmi.ts";
+
+export const JOINTS = 6;
 
 /**
  * The posture of a position as the interface says it: wrist flipped, elbow up, wrist in front; the turns of axes 4, 5
@@ -16,9 +28,9 @@ export interface Configuration {
 }
 
 /** Turn 0 is within half a turn of zero, 1 and −1 are the turns beside it. */
-const turnOf = (angle_rad: number): number => {
-  const turn = Math.trunc((Math.abs(degrees(angle_rad)) + 180) / 360);
-  return turn === 0 ? 0 : Math.sign(angle_rad) * turn;
+const turnOf = (angle_deg: number): number => {
+  const turn = Math.trunc((Math.abs(angle_deg) + 180) / 360);
+  return turn === 0 ? 0 : Math.sign(angle_deg) * turn;
 };
 
 /**
@@ -27,14 +39,17 @@ const turnOf = (angle_rad: number): number => {
  */
 export function configurationOf(robot: Robot, q_rad: ArrayLike<number>): Configuration {
   const branch = branchOf(robot, q_rad);
+  const section = sectionForDriver(robot, "fanuc");
+  const axes =
+    section === undefined ? Array.from(q_rad, degrees) : axesOfJoints(section, q_rad, new Float64Array(JOINTS));
   return {
     Front: branch?.shoulder === "back" ? 0 : 1,
     Up: branch?.elbow === "down" ? 0 : 1,
     Left: 0,
-    Flip: branch?.wrist === "negative" ? 1 : 0,
-    Turn4: turnOf(q_rad[3]!),
-    Turn5: turnOf(q_rad[4]!),
-    Turn6: turnOf(q_rad[5]!),
+    Flip: branch?.wrist === wristAboveZero(robot) ? 1 : 0,
+    Turn4: turnOf(axes[3]!),
+    Turn5: turnOf(axes[4]!),
+    Turn6: turnOf(axes[5]!),
   };
 }
 
@@ -61,10 +76,10 @@ export function askedConfiguration(fields: Readonly<Record<string, unknown>>): C
     : undefined;
 }
 
-export const branchOfConfiguration = ({ Front, Up, Flip }: Configuration): Branch => ({
+export const branchOfConfiguration = (robot: Robot, { Front, Up, Flip }: Configuration): Branch => ({
   shoulder: Front === 1 ? "front" : "back",
   elbow: Up === 1 ? "up" : "down",
-  wrist: Flip === 1 ? "negative" : "positive",
+  wrist: (Flip === 1) === (wristAboveZero(robot) === "positive") ? "positive" : "negative",
 });
 
 /**

@@ -3,7 +3,7 @@ import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
-import { createFanucAdapter, createVirtualFanuc, fanucJoints } from "./index.ts";
+import { createFanucAdapter, createVirtualFanuc } from "./index.ts";
 
 const robot = robotById("fanuc_lrmate200id")!;
 const HOST = "127.0.0.5";
@@ -14,18 +14,16 @@ describeController("FANUC driver on its virtual controller, over RMI", {
   cannot: FANUC_CANNOT,
   async make({ robot: driven, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler);
-    const joints = fanucJoints(robot)!;
     await createVirtualFanuc({
       robot: driven,
       scheduler,
       network,
       host: HOST,
-      joints,
       start_rad,
       digits: 12,
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
-    const adapter = createFanucAdapter({ robot: driven, scheduler, network, host: HOST, joints, period_s: 0.004 });
+    const adapter = createFanucAdapter({ robot: driven, scheduler, network, host: HOST, period_s: 0.004 });
     const controller = createRealController({
       face: adapter,
       scheduler,

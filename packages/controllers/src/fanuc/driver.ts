@@ -1,11 +1,14 @@
-import type {
-  CommandOutcome,
-  EmittedFile,
-  UploadedProgram,
-  JointSample,
-  Refusal,
-  Robot,
-  Scheduler,
+import {
+  sectionForDriver,
+  type CommandOutcome,
+  type EmittedFile,
+  type UploadedProgram,
+  type JointSample,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  jointsOfAxes,
+  axesOfJoints,
 } from "@twincell/core";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../driver/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
@@ -23,7 +26,7 @@ import {
   type RmiPacket,
 } from "./codec-rmi.ts";
 import { putFiles } from "./ftp-client.ts";
-import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
+import { JOINTS } from "./configuration.ts";
 import { stoppedInReset } from "../refusals.ts";
 import { DONE, refused, stopped } from "../outcomes.ts";
 
@@ -39,7 +42,6 @@ export interface FanucAdapterOptions {
   /** States are asked for this often [s]. */
   readonly period_s?: number;
   readonly stale_s?: number;
-  readonly joints?: FanucJoints;
   /** Inputs to be read with every state, `DI[3]`. */
   readonly signals?: readonly string[];
   /** DO of the gripper; ON closes. */
@@ -82,7 +84,7 @@ const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then c
  */
 export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
-  const joints = options.joints ?? fanucJoints(robot);
+  const joints = sectionForDriver(robot, "fanuc");
   const period_s = options.period_s ?? 0.02;
   const values = new Map<string, boolean | number>();
   const inputs = (options.signals ?? []).filter(signal => /^DI\[[0-9]+\]$/.test(signal));
@@ -229,7 +231,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
     if (servos && !locked) fault = "";
     lent.sequence++;
     lent.time_s = Number.isNaN(tag_ms) ? scheduler.now_s() : tag_ms / 1000;
-    jointsOf(j_deg, joints!, lent.q_rad);
+    jointsOfAxes(joints!, j_deg, lent.q_rad);
     lent.mode = pendant ? "manual" : "remote";
     lent.override = paused ? 0 : Number.isNaN(override) ? lent.override : override / 100;
     lent.safety = locked ? "emergency-stop" : servos ? "normal" : "protective-stop";
@@ -291,7 +293,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
         refusal(
           "link.joints",
           `How a FANUC controller shows the joints of ${robot.name} is not known.`,
-          "Give the coupling of its joint 3.",
+          "Give its file a vendor section with the driver fanuc.",
         ),
         false,
       );
@@ -349,7 +351,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
         ),
       );
     const isLine = motion.path === "line";
-    const shown = shownOf(motion.q_rad, joints!, new Float64Array(JOINTS));
+    const shown = axesOfJoints(joints!, motion.q_rad, new Float64Array(JOINTS));
     return instruct(
       isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep",
       {

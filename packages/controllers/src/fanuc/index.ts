@@ -1,6 +1,5 @@
 export { fanuc } from "./brand.ts";
 export { createFanucAdapter, type FanucAdapterOptions } from "./driver.ts";
-export { fanucJoints, type FanucJoints } from "./joints.ts";
 export {
   createVirtualFanuc,
   type FanucPendant,

@@ -1,4 +1,5 @@
 import {
+  brakingTime_s,
   distance,
   hardBrakingTime_s,
   identity,
@@ -13,8 +14,10 @@ import {
 import type { CellMember } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal, stoppedInReset } from "../refusals.ts";
+import { PathAhead, StraightPath, type KnownPath } from "./known-path.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
 import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
+import { StopForecast } from "./stop-forecast.ts";
 import {
   cameTooNear,
   commanderWentSilent,
@@ -99,6 +102,13 @@ export interface Guard {
   stop(emergency?: boolean): void;
   /** Who keeps the link knows that it is gone, maybe before it was silent for long, and maybe back before that. */
   linkLost(why?: Refusal): void;
+  /**
+   * The path of the motion that begins now, as a plan knows it; null when it is over. As long as the robot is on it,
+   * that is where it is looked ahead, and not where its joints happen to point.
+   */
+  follow(path: KnownPath | null): void;
+  /** What was safe on the way ahead may not be any more: something is carried now that was not, or the reverse. */
+  lookAgain(): void;
   /** The cell or the tool is another from now on; what moves is judged by it from its next sample on. */
   setCell(cell: GuardedCell): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
@@ -120,8 +130,9 @@ const WATCH_S = 0.02;
  * its own watchdog counts on.
  */
 const HELD_UP_S = 0.05;
-/** From seeing to the stop taking effect. */
-const REACTION_S = 0.02;
+/** Where a robot would come to rest is looked at in steps no longer than this [rad], and in no more than so many. */
+const LOOK_RAD = 0.05;
+const MOST_LOOKS = 8;
 const MANUAL_CAP_MPS = 0.25;
 /** Measured over one cycle the speed is a little noisy. */
 const SPEED_SLACK = 1.1;
@@ -140,7 +151,9 @@ export function createGuard(options: GuardOptions): Guard {
   const silence_s = typeof silence === "number" ? (): number => silence : silence;
   const delay_s = options.linkDelay_s ?? 0;
   const cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
-  const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
+  // Of a robot that nobody knows, it is not said that it brakes as hard as it can.
+  const braking_s =
+    options.brakingTime_s ?? (controller.kind === "virtual" ? hardBrakingTime_s(robot) : brakingTime_s(robot));
   let contactsAt: GuardedCell["contactsAt"];
   let gripper: GuardedCell["gripper"];
   let gripperClosed = false;
@@ -164,11 +177,11 @@ export function createGuard(options: GuardOptions): Guard {
   let applied = 100;
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with
   // room to stop.
-  const q_rad = controller.jointAngles();
-  const ahead_rad = new Float64Array(n);
+  const forecast = new StopForecast(robot, controller.jointAngles(), braking_s, delay_s);
+  const { q_rad, ahead_rad } = forecast;
   const between_rad = new Float64Array(n);
-  const gained_rad = new Float64Array(n);
-  const rate_rad_s = new Float64Array(n);
+  let planned: PathAhead | null = null;
+  let straight: PathAhead | null = null;
   const safe_rad = Float64Array.from(q_rad);
   let time_s = NaN;
   let leaving = false;
@@ -241,6 +254,7 @@ export function createGuard(options: GuardOptions): Guard {
     because = null;
     beginLeaving();
     place?.begin();
+    straight = target_rad ? new PathAhead(new StraightPath(controller.jointAngles(), target_rad), n) : null;
     capped = cappedFor(target_rad);
     applySpeed();
     let outcome: CommandOutcome | null = null;
@@ -253,6 +267,7 @@ export function createGuard(options: GuardOptions): Guard {
         send({ type: "ended" });
       }
     }
+    straight = null;
     const reason: Refusal | null = because;
     if (state.motion !== "returning") {
       capped = 1;
@@ -267,8 +282,28 @@ export function createGuard(options: GuardOptions): Guard {
     leaving = !isSafe(q_rad);
     touchedAtStart = leaving ? (contactsAt?.(q_rad) ?? []) : [];
   }
-  const addsContact = (at_rad: Float64Array): boolean =>
-    contactsAt?.(at_rad).some(pair => !touchedAtStart.includes(pair)) ?? false;
+  const addsNone = (at_rad: Float64Array): boolean =>
+    contactsAt?.(at_rad).every(pair => touchedAtStart.includes(pair)) ?? true;
+
+  /** Whether it would come to rest without anything on the way there, if it were stopped now. */
+  function freeAhead(isFree: (at_rad: Float64Array) => boolean): boolean {
+    const path = state.motion === "moving" ? (planned ?? straight) : null;
+    const seen = path?.look(q_rad, ahead_rad, forecast.reach_s, isFree) ?? "off";
+    if (seen !== "off") return seen === "free";
+    let most_rad = 0;
+    for (let i = 0; i < n; i++) most_rad = Math.max(most_rad, Math.abs(ahead_rad[i]! - q_rad[i]!));
+    const looks = Math.min(MOST_LOOKS, Math.max(1, Math.ceil(most_rad / LOOK_RAD)));
+    // The far end first: what is in the way is met there first.
+    for (let look = looks; look > 0; look--) {
+      for (let i = 0; i < n; i++) between_rad[i] = q_rad[i]! + (look / looks) * (ahead_rad[i]! - q_rad[i]!);
+      if (!isFree(between_rad)) return false;
+    }
+    return true;
+  }
+  const lookAgain = (): void => {
+    planned?.forget();
+    straight?.forget();
+  };
 
   const watchedOnly = (): Refusal | null => (state.watching ? denialRefusal("watching", robot.name, null) : null);
   const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
@@ -284,32 +319,12 @@ export function createGuard(options: GuardOptions): Guard {
     const dt_s = lent.time_s - time_s;
     const known = dt_s > 0;
     manual = lent.mode === "manual";
-    let part = 0;
-    // The difference of two samples is a speed half a sample old, and the next look is a sample away: a joint gains
-    // speed meanwhile.
-    const age_s = known ? Math.min(dt_s, REACTION_S) + delay_s : 0;
-    for (let i = 0; i < n; i++) {
-      const rate = known ? (lent.q_rad[i]! - q_rad[i]!) / dt_s : 0;
-      const most = robot.arm.joints[i]!.limits.speed_rad_s;
-      const gain = known ? Math.max(0, (Math.abs(rate) - Math.abs(rate_rad_s[i]!)) / dt_s) : 0;
-      const then = Math.sign(rate) * Math.min(Math.max(most, Math.abs(rate)), Math.abs(rate) + gain * age_s);
-      rate_rad_s[i] = rate;
-      ahead_rad[i] = then;
-      gained_rad[i] = ((rate + then) / 2) * (REACTION_S + delay_s);
-      part = Math.max(part, Math.abs(then) / most);
-      q_rad[i] = lent.q_rad[i]!;
-    }
-    // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
-    // From where it is commanded to be by now, where the controller says so: what was commanded will come.
-    const from_rad = lent.target_rad ?? lent.q_rad;
-    for (let i = 0; i < n; i++) {
-      ahead_rad[i] = from_rad[i]! + gained_rad[i]! + (ahead_rad[i]! * part * braking_s) / 2;
-      between_rad[i] = (q_rad[i]! + ahead_rad[i]!) / 2;
-    }
+    forecast.take(lent, dt_s);
     time_s = lent.time_s;
     if (lent.gripperClosed !== gripperClosed) {
       ({ gripperClosed } = lent);
       gripper?.(gripperClosed, q_rad);
+      lookAgain();
     }
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
@@ -333,12 +348,14 @@ export function createGuard(options: GuardOptions): Guard {
     const here = isSafe(q_rad);
     if (leaving) {
       leaving = !here;
-      if (!leaving || state.motion !== "moving" || !(addsContact(q_rad) || addsContact(ahead_rad))) return;
+      if (!leaving) lookAgain();
+      if (!leaving || state.motion !== "moving" || (addsNone(q_rad) && freeAhead(addsNone))) return;
       notice(cameTooNear);
       send({ type: "too-near" });
       return;
     }
-    const kept = here && (!underWay || (isSafe(ahead_rad) && isSafe(between_rad)));
+    const kept =
+      here && (!underWay || ((!lent.target_rad || isSafe(lent.target_rad as Float64Array)) && freeAhead(isSafe)));
     if (kept) {
       if (state.trip === "none") safe_rad.set(q_rad);
       return;
@@ -500,7 +517,12 @@ export function createGuard(options: GuardOptions): Guard {
         send({ type: "link-lost" });
       }
     },
+    follow(path) {
+      planned = path && new PathAhead(path, n);
+    },
+    lookAgain,
     setCell(cell) {
+      lookAgain();
       ({ isSafe, contactsAt, gripper } = cell);
       if (gripperClosed) gripper?.(true, q_rad);
       flangeFromTcp = cell.flangeFromTcp ?? identity<"flange", "tcp">();

@@ -10,5 +10,6 @@ export {
   type GuardRules,
   type GuardState,
 } from "./state.ts";
+export { PlannedPath } from "./known-path.ts";
 export { jointMoveSpeed, slowed, speedBound } from "./speed.ts";
 export { clearOf, type ClearOf, type ClearOfOptions } from "./clear-of.ts";

@@ -1,35 +1,24 @@
-import { degrees, flangePose, fromKukaAbc, pose, radians, toKukaAbc, type Pose, type Robot } from "@twincell/core";
+import {
+  flangePose,
+  fromKukaAbc,
+  pose,
+  radians,
+  toKukaAbc,
+  type Pose,
+  type Robot,
+  type VendorSection,
+  sectionForDriver,
+} from "@twincell/core";
 import { krlStruct, partsIn, REAL_DIGITS } from "./codec-values.ts";
 
-/**
- * How a controller counts the axes:
- *   A_i = sign_i · degrees(q_i) + offset_i.
- * Data of the controller: handed in for arms that are described otherwise.
- */
-export interface KukaAxes {
-  readonly signs: readonly number[];
-  readonly offsets_deg: readonly number[];
-}
 export const AXES = 6;
 export const AXIS_NAMES = ["A1", "A2", "A3", "A4", "A5", "A6"] as const;
 const FRAME_NAMES = ["X", "Y", "Z", "A", "B", "C"] as const;
 
-/**
- * The library describes KUKA's arms by KUKA's own axes: zero with the arm level in front, A1, A4 and A6 by the left
- * hand. Undefined where that is not known.
- */
-export const kukaAxes = (robot: Robot): KukaAxes | undefined =>
-  robot.vendor === "KUKA" && robot.arm.joints.length === AXES
-    ? { signs: [1, 1, 1, 1, 1, 1], offsets_deg: [0, 0, 0, 0, 0, 0] }
-    : undefined;
-
-export function axesOf(q_rad: ArrayLike<number>, axes: KukaAxes, out: Float64Array): Float64Array {
-  for (let i = 0; i < AXES; i++) out[i] = axes.signs[i]! * degrees(q_rad[i]!) + axes.offsets_deg[i]!;
-  return out;
-}
-export function jointsOf(a_deg: ArrayLike<number>, axes: KukaAxes, out: Float64Array): Float64Array {
-  for (let i = 0; i < AXES; i++) out[i] = radians((a_deg[i]! - axes.offsets_deg[i]!) * axes.signs[i]!);
-  return out;
+/** The axes of a robot that KUKA's controllers move; undefined for others. */
+export function kukaAxes(robot: Robot): VendorSection | undefined {
+  const section = sectionForDriver(robot, "kuka", "kuka-rsi");
+  return robot.arm.joints.length === AXES ? section : undefined;
 }
 
 /** `{E6AXIS: A1 …, E6 0.0}`. Every axis is there: a component left out would keep its present value. */

@@ -48,7 +48,6 @@ export const kuka: DriverKind = {
   ports: { variables: C3_PORT },
   vendor: "KUKA",
   cannot: KUKA_CANNOT,
-  drives: robot => kukaAxes(robot) !== undefined,
   otherWays: [
     {
       name: "KUKA (RSI)",

@@ -8,7 +8,6 @@ import {
   createKukaAdapter,
   createKukaRsiAdapter,
   createVirtualKuka,
-  kukaAxes,
   RSI_NAME,
   startLoop,
 } from "./index.ts";
@@ -20,7 +19,6 @@ describeController("KUKA driver on its virtual controller, over variables", {
   cannot: KUKA_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler);
-    const axes = kukaAxes(KR6)!;
     const model = "#KR6R900SIXX";
     // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is
     // T-23's).
@@ -30,14 +28,13 @@ describeController("KUKA driver on its virtual controller, over variables", {
       network,
       host: HOST,
       interpret: interpretMoves,
-      axes,
       model,
       start_rad,
       digits: 14,
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     startLoop(kuka);
-    const adapter = createKukaAdapter({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
+    const adapter = createKukaAdapter({ robot, scheduler, network, host: HOST, model, period_s: 0.004 });
     const controller = createRealController({
       face: adapter,
       scheduler,
@@ -58,7 +55,6 @@ describeController("KUKA driver on its virtual controller, over RSI", {
   cannot: KUKA_RSI_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler);
-    const axes = kukaAxes(KR6)!;
     const model = "#KR6R900SIXX";
     const config = axisConfig("127.0.0.1", 49_152);
     const kuka = await createVirtualKuka({
@@ -67,7 +63,6 @@ describeController("KUKA driver on its virtual controller, over RSI", {
       network,
       host: HOST,
       interpret: interpretMoves,
-      axes,
       model,
       start_rad,
       digits: 14,
@@ -80,7 +75,6 @@ describeController("KUKA driver on its virtual controller, over RSI", {
       scheduler,
       network,
       host: HOST,
-      axes,
       model,
       period_s: 0.012,
       config,

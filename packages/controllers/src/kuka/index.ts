@@ -1,4 +1,4 @@
-export { kukaAxes, type KukaAxes } from "./axes.ts";
+export { kukaAxes } from "./axes.ts";
 export { C3_PORT } from "./codec-c3.ts";
 export { LOOP_FILES, LOOP_NAME, RSI_FILE, RSI_NAME } from "./loop.ts";
 export {

@@ -1,15 +1,13 @@
 import type { Robot } from "@twincell/core";
 
-/** How controllers name the arms of the library in $MODEL_NAME[], without the parts that differ from cell to cell. */
-const MODELS: Readonly<Record<string, string>> = {
-  kuka_kr6r900sixx: "#KR6R900SIXX C2 FLR ZH100",
-  kuka_kr6_2: "#KR6_2 H C4 FLR ZH02",
-};
 const letters = (text: string): string => text.toUpperCase().replace(/[^A-Z0-9]/g, "");
-/** "KUKA KR 6 R900 sixx" → "KR6R900SIXX" */
-const modelOf = (robot: Robot): string => letters(robot.name.replace(/^KUKA\s*/i, ""));
 
-export const kukaModel = (robot: Robot): string => MODELS[robot.id] ?? `#${modelOf(robot)}`;
+/**
+ * How controllers name an arm in $MODEL_NAME[]: by its vendor section, or by its name, "KUKA KR 6 R900 sixx" →
+ * "#KR6R900SIXX", without the parts that differ from cell to cell.
+ */
+export const kukaModel = (robot: Robot): string =>
+  robot.vendorSection?.model ?? `#${letters(robot.name.replace(/^KUKA\s*/i, ""))}`;
 /**
  * Whether the name that a controller gives itself is that of the robot: the first word counts, letters and digits only.
  */

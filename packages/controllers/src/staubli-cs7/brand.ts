@@ -2,7 +2,6 @@ import type { DriverKind } from "../driver/index.ts";
 import { CS7_CANNOT } from "./cannot.ts";
 import { LINE_PORT } from "./codec.ts";
 import { createCs7Adapter } from "./adapter/index.ts";
-import { vPlusJoints } from "./joints.ts";
 import { cs7Pendant } from "./pendant.ts";
 import { createVirtualCs7 } from "./virtual/index.ts";
 
@@ -16,7 +15,6 @@ export const staubliCs7: DriverKind = {
   vendor: "Stäubli",
   ports: PORTS,
   cannot: CS7_CANNOT,
-  drives: robot => vPlusJoints(robot) !== undefined,
   data: [
     {
       id: "baud",

@@ -120,3 +120,6 @@ export function readPoint(text: string): number[] | null {
   const values = inside?.split(",").map(value => (value.trim() === "" ? NaN : Number(value))) ?? [];
   return values.length > 0 && values.every(value => Number.isFinite(value)) ? values : null;
 }
+
+/** Robots on these controllers have six joints. */
+export const JOINTS = 6;

@@ -3,10 +3,9 @@ import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { CS7_CANNOT } from "./cannot.ts";
-import { createCs7Adapter, createVirtualCs7, vPlusJoints } from "./index.ts";
+import { createCs7Adapter, createVirtualCs7 } from "./index.ts";
 
 const robot = robotById("staubli_rx90l")!;
-const joints = vPlusJoints(robot)!;
 const HOST = "127.0.0.7";
 const POLL_S = 0.004;
 /** Half a step of WHERE's thousandths of a degree, and of the ten-thousandths of a precision point. */
@@ -26,13 +25,12 @@ describeController("Stäubli CS7 driver on its virtual controller, over the moni
       scheduler,
       network,
       host: HOST,
-      joints,
       start_rad,
       presses_s: 0.1,
       interpret: () => ({ kind: "not-understood", faults: [] }),
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
-    const adapter = createCs7Adapter({ robot: driven, scheduler, network, host: HOST, joints, period_s: POLL_S });
+    const adapter = createCs7Adapter({ robot: driven, scheduler, network, host: HOST, period_s: POLL_S });
     const controller = createRealController({
       face: adapter,
       scheduler,

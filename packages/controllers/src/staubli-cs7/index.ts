@@ -1,6 +1,5 @@
 export { staubliCs7 } from "./brand.ts";
 export { createCs7Adapter, type Cs7FaceOptions } from "./adapter/index.ts";
-export { vPlusJoints, type VPlusJoints } from "./joints.ts";
 export {
   createVirtualCs7,
   type Cs7Pendant,

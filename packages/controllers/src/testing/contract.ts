@@ -263,6 +263,23 @@ export function describeController(name: string, contract: Contract): void {
       },
     );
 
+    row("T-10 a stop in the first moments of a motion wins: only the next command moves the robot", async () => {
+      for (const after_s of [0, 0.002, 0.01, 0.03, 0.1]) {
+        const { controller, scheduler, carryOut } = await bench();
+        const moving = controller.moveJoints(at(0.9));
+        await scheduler.elapse(after_s);
+        controller.stop();
+        expect((await carryOut(moving)).outcome.kind).toBe("stopped");
+        // A way back at once, as a guard commands it, is all that moves the robot afterwards.
+        const back = controller.jointAngles().slice();
+        expect((await carryOut(controller.moveJoints(back))).outcome).toEqual({ kind: "done" });
+        await scheduler.elapse(2);
+        expectAngles(controller, back);
+        expect((await carryOut(controller.moveJoints(at(0.6)))).outcome).toEqual({ kind: "done" });
+        controller.close();
+      }
+    });
+
     row("T-11 the set-up hook is called once, on load", async () => {
       let calls = 0;
       const { controller, scheduler, carryOut } = await bench({

@@ -1,10 +1,17 @@
 import { samplePlan, type Plan } from "@twincell/core";
 
-/** How far ahead and back along the plan the robot is looked for, in steps of this long [s]. */
-const STEP_S = 0.05;
-const BACK = 2;
-const AHEAD = 8;
+/** How far ahead and back along the plan the robot is looked for, in steps of so long [s]. */
+interface Search {
+  readonly step_s: number;
+  readonly back: number;
+  readonly ahead: number;
+}
+/** Where it can be a sample later, and where it can be when samples were missing. */
+const AT_HAND: Search = { step_s: 0.0125, back: 2, ahead: 4 };
+const WIDE: Search = { step_s: 0.05, back: 2, ahead: 8 };
 const HALVINGS = 5;
+/** A robot this near to the place at hand is there, even if the plan comes by nearer later [rad]. */
+const THERE_RAD = 0.002;
 
 /** Largest differences of any joint [rad]; NaN where one of both is not known. */
 export interface Deviation {
@@ -40,17 +47,25 @@ export class PlanFollower {
    */
   take(measured_rad: ArrayLike<number>): number {
     if (this.plan.segments.length === 0) return NaN;
-    let best = Infinity;
+    const from_s = this.t_s;
+    const near = this.search(from_s, AT_HAND, measured_rad);
+    const off = near <= THERE_RAD ? near : Math.min(near, this.search(from_s, WIDE, measured_rad));
+    return off === Infinity ? NaN : off;
+  }
+
+  /** Goes to the nearest place around `from_s`, where that is nearer than the one it stands at; how far that is. */
+  private search(from_s: number, { step_s, back, ahead }: Search, measured_rad: ArrayLike<number>): number {
+    let best = this.far(this.t_s, measured_rad);
     let best_s = this.t_s;
-    for (let k = -BACK; k <= AHEAD; k++) {
-      const t_s = Math.min(this.plan.duration_s, Math.max(0, this.t_s + k * STEP_S));
+    for (let k = -back; k <= ahead; k++) {
+      const t_s = Math.min(this.plan.duration_s, Math.max(0, from_s + k * step_s));
       const far = this.far(t_s, measured_rad);
       if (far < best) {
         best = far;
         best_s = t_s;
       }
     }
-    for (let width = STEP_S / 2, i = 0; i < HALVINGS; i++, width /= 2) {
+    for (let width = step_s / 2, i = 0; i < HALVINGS; i++, width /= 2) {
       for (const t_s of [best_s - width, best_s + width]) {
         if (t_s < 0 || t_s > this.plan.duration_s) continue;
         const far = this.far(t_s, measured_rad);
@@ -61,7 +76,7 @@ export class PlanFollower {
       }
     }
     this.t_s = best_s;
-    return best === Infinity ? NaN : best;
+    return Number.isNaN(best) ? Infinity : best;
   }
 
   private far(t_s: number, measured_rad: ArrayLike<number>): number {

@@ -1,6 +1,6 @@
 import type { DriverKind } from "../driver/index.ts";
 import { UR_CANNOT } from "./cannot.ts";
-import { UR_PORTS } from "./codec/models.ts";
+import { UR_PORTS, countsAsUr } from "./codec/models.ts";
 import { createUrAdapter } from "./adapter/index.ts";
 import { createVirtualUr } from "./virtual/index.ts";
 
@@ -11,6 +11,7 @@ export const universalRobots: DriverKind = {
   ports: { ...UR_PORTS },
   vendor: "Universal Robots",
   cannot: UR_CANNOT,
+  drives: countsAsUr,
   face: createUrAdapter,
   virtual: createVirtualUr,
 };

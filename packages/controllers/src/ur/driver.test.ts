@@ -84,6 +84,30 @@ describe("UR driver", () => {
     expect(controller.isMoving()).toBe(false);
   });
 
+  test("T-10 a stop while its program is still being started on the robot wins: the motion that waited for it never begins", async () => {
+    for (const after_s of [0, 0.004, 0.02, 0.06]) {
+      const { scheduler, driver } = await urBench();
+      const controller = await driver();
+      // Room is made for a text that does not come: the next motion has to start the program anew.
+      const handed = watched(controller.handText!([{ name: "a.script", text: "def a():\nend\n" }]));
+      await scheduler.elapse(1);
+      if (handed.value?.kind !== "handed") throw new Error("The text was not taken.");
+      handed.value.drop();
+      const moving = watched(controller.moveJoints(REACH));
+      await scheduler.elapse(after_s);
+      controller.stop();
+      for (let i = 0; i < 500 && !moving.value; i++) await scheduler.elapse(0.002);
+      expect(moving.value).toMatchObject({ kind: "stopped" });
+      // The way back, as a guard commands it at once, starts that program.
+      const rest = [...controller.jointAngles()];
+      const back = watched(controller.moveJoints(rest));
+      await scheduler.elapse(4);
+      expect(back.value).toEqual({ kind: "done" });
+      controller.jointAngles().forEach((angle, i) => expect(angle).toBeCloseTo(rest[i]!, 5));
+      controller.close();
+    }
+  });
+
   test("T-19 is connected while the link is open, and neither before nor after", async () => {
     const { scheduler, network } = await urBench();
     const controller = createRealController({

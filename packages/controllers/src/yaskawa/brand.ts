@@ -1,6 +1,6 @@
 import type { DriverKind } from "../driver/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
-import { FILE_PORT, ROBOT_PORT } from "./codec/index.ts";
+import { FILE_PORT, ROBOT_PORT, scaleWith } from "./codec/index.ts";
 import { yaskawaAdapter } from "./adapter/index.ts";
 import { yaskawaPendant } from "./pendant.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
@@ -31,7 +31,7 @@ export const yaskawa: DriverKind = {
     return yaskawaAdapter({
       ...options,
       ports: { ...PORTS, ...ports },
-      ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}),
+      ...(pulsesPerDegree ? { scale: scaleWith(options.robot, pulsesPerDegree, "said by a person") } : {}),
     });
   },
   async virtual({ ports, ...options }) {

@@ -3,13 +3,13 @@ import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
-import { EXAMPLE_SCALE, resolution_rad } from "./codec/index.ts";
+import { exampleScale, resolution_rad } from "./codec/index.ts";
 import { yaskawaAdapter } from "./adapter/index.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
 
-const half_rad = resolution_rad(EXAMPLE_SCALE);
 const HOST = "127.0.0.1";
 const gp8 = robotById("yaskawa_gp8")!;
+const half_rad = resolution_rad(exampleScale(gp8));
 
 describeController("Yaskawa driver on its virtual controller", {
   robot: gp8,
@@ -36,7 +36,14 @@ describeController("Yaskawa driver on its virtual controller", {
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") throw new Error(started.sentence);
-    const adapter = yaskawaAdapter({ robot, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, poll_s: 0.002 });
+    const adapter = yaskawaAdapter({
+      robot,
+      scheduler,
+      network,
+      host: HOST,
+      scale: exampleScale(robot),
+      poll_s: 0.002,
+    });
     const controller = createRealController({
       face: adapter,
       scheduler,

@@ -1,5 +1,5 @@
 export {
-  EXAMPLE_SCALE as YASKAWA_EXAMPLE_SCALE,
+  exampleScale as yaskawaExampleScale,
   resolution_rad as yaskawaResolution_rad,
   type PulseScale as YaskawaPulseScale,
 } from "./codec/index.ts";

@@ -55,7 +55,9 @@ describe("X-35 the reach report", () => {
     expect(near.postures).toBe(reach.solutions.length);
     const rooms = reach.solutions.map(({ q_rad }) =>
       Math.min(
-        ...robot.arm.joints.map(({ limits }, j) => Math.min(limits.upper_rad - q_rad[j]!, q_rad[j]! - limits.lower_rad)),
+        ...robot.arm.joints.map(({ limits }, j) =>
+          Math.min(limits.upper_rad - q_rad[j]!, q_rad[j]! - limits.lower_rad),
+        ),
       ),
     );
     expect(near.room!.value).toBeCloseTo(Math.max(...rooms), 12);

@@ -12,6 +12,12 @@ import { POINT_MESH } from "./contact-probe.ts";
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
 
+/**
+ * The trees of this thread, by their meshes, for as long as the meshes are in use: a cell that is built again after an
+ * edit finds those of its robot and of everything that stayed.
+ */
+const BUILT_SOLIDS = new SolidCache();
+
 /** The two solids that are nearest to each other, and where. Points are in the world [m]. */
 export interface Clearance {
   /** Infinity when nothing is nearer than the cut-off. */
@@ -69,8 +75,8 @@ export class CellCollider {
   #pairs: SolidPair[] = [];
   #edition = 0;
 
-  /** @param solidCache  where built trees are kept; pass the same one when a cell is built again after an edit. */
-  constructor(cell: CellGeometry, arm: SerialArm, solidCache = new SolidCache()) {
+  /** @param solidCache  where built trees are kept; the one of this thread when left out. */
+  constructor(cell: CellGeometry, arm: SerialArm, solidCache = BUILT_SOLIDS) {
     this.shapeError_m = cell.shapeError_m;
     this.placeError_m = cell.placeError_m ?? 0;
     this.#arm = arm;

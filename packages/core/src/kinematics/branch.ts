@@ -61,6 +61,15 @@ export function branchOf(robot: Robot, q_rad: ArrayLike<number>, at = 0): Branch
   }
 }
 
+/**
+ * The wrist of a branch whose axis 5 the controller shows above 0: branches name the sign of θ5 in the formula's own
+ * zero, which turns the other way for some arms. "positive" where no section says how axes are shown.
+ */
+export function wristAboveZero({ family, vendorSection }: Robot): Branch["wrist"] {
+  const turns = family.kind === "general" ? 1 : family.signs[4];
+  return turns * (vendorSection?.axes[4]?.sign ?? 1) > 0 ? "positive" : "negative";
+}
+
 const named = (front: boolean, up: boolean, positive: boolean): Branch => ({
   shoulder: front ? "front" : "back",
   elbow: up ? "up" : "down",

@@ -4,3 +4,4 @@ export * from "./stand.ts";
 export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./form.ts";
+export * from "./vendor.ts";

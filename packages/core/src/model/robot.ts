@@ -3,6 +3,7 @@ import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { LinkMass, SerialArm } from "./arm.ts";
 import type { RobotForm, RobotPaint } from "./form.ts";
+import type { VendorSection } from "./vendor.ts";
 
 /**
  * Ortho-parallel basis with spherical wrist, seven lengths (Brandstötter, Angerer, Hofbaur 2014).
@@ -114,7 +115,10 @@ export interface DeclaredWorkspace {
 export interface Robot {
   readonly id: string;
   readonly name: string;
+  /** The maker. */
   readonly vendor: string;
+  /** What the maker's controllers need: without it no language and no driver takes the robot. */
+  readonly vendorSection?: VendorSection;
   readonly arm: SerialArm;
   readonly family: KinematicFamily;
   /** Names of the root link, of the tip frame and of the vendor's world, as URDFs of this robot call them. */

@@ -62,8 +62,10 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
 /** What may be missing from a robot, where it is known. */
 function optional(known: KnownOfRobot): Partial<Robot> {
   const { payload_kg, repeatability_m, mass_kg, masses, workspace, madeUpGeometry, unverified, form, paint } = known;
+  const { vendorSection } = known;
   const payloadMax_kg = known.payloadMax_kg ?? payload_kg;
   return {
+    ...(vendorSection === undefined ? {} : { vendorSection }),
     ...(payload_kg === undefined ? {} : { payload_kg }),
     ...(payloadMax_kg === undefined ? {} : { payloadMax_kg }),
     ...(repeatability_m === undefined ? {} : { repeatability_m }),

@@ -1,11 +1,14 @@
 import type { Robot } from "../model/robot.ts";
-import { LIBRARY, robotById } from "./library/index.ts";
+import { catalogueRobots } from "./catalogue/index.ts";
+import { LIBRARY, publishedRobot } from "./library/index.ts";
 import { jointText } from "../model/slide.ts";
 import { angleBetween } from "../spatial/quaternion.ts";
 import { degrees, millimetres } from "../spatial/units.ts";
 import { distance, type Vector3 } from "../spatial/vector.ts";
 import { seededRandom } from "../random.ts";
 import { flangePose } from "../kinematics/forward.ts";
+import { jointsOfAxes } from "../model/vendor.ts";
+import { compose, inverse } from "../spatial/pose.ts";
 
 /**
  * Two arms are the same robot when their flanges meet this closely at the same joint values, and the one allows no
@@ -63,26 +66,54 @@ export function compareWithLibrary(robot: Robot, known: Robot): Identity {
   return { kind: "same", worst_m, worst_rad };
 }
 
-/** The robot of the library that an arm is, by its kinematics and limits alone; undefined when it is none of them. */
+/**
+ * The robot of the library, or of a catalogue that was added, that an arm is: by its kinematics and limits alone.
+ * Undefined when it is none of them.
+ */
 export const libraryRobotOf = (robot: Robot): Robot | undefined =>
-  LIBRARY.find(known => compareWithLibrary(robot, known).kind === "same");
+  [...LIBRARY, ...catalogueRobots()].find(known => compareWithLibrary(robot, known).kind === "same");
+
+/** The flange must be where a posture of the vendor section says it is [mm]: pendants show hundredths. */
+const POSTURE_TOLERANCE_MM = 1;
+
+/**
+ * Why a vendor section is not that of the arm it stands with: where the flange is said to be and where it is, for the
+ * first posture that disagrees. Undefined when all agree, or where there is no section.
+ */
+export function falseSection({ name, arm, baseFromVendorWorld, vendorSection }: Robot): string | undefined {
+  if (vendorSection === undefined) return undefined;
+  const { axes, postures = [] } = vendorSection;
+  if (axes.length !== arm.joints.length)
+    return `the vendor section counts ${axes.length} axes, the ${name} has ${arm.joints.length} joints.`;
+  for (const { axes_deg, flange_mm } of postures) {
+    const q = jointsOfAxes(vendorSection, axes_deg, new Float64Array(axes.length));
+    const flange = compose(inverse(baseFromVendorWorld), flangePose(arm, q)).position;
+    const off_mm = Math.hypot(...flange.map((value, i) => millimetres(value) - flange_mm[i]!));
+    if (!(off_mm <= POSTURE_TOLERANCE_MM))
+      return `at ${axes.map(({ name: axis }, i) => `${axis} ${axes_deg[i]!}°`).join(", ")} the vendor section has the flange at (${flange_mm.map(value => value.toFixed(1)).join(", ")}) mm, that of the ${name} is at ${point(flange)} mm: ${off_mm.toFixed(1)} mm apart (${POSTURE_TOLERANCE_MM} mm is allowed).`;
+  }
+  return undefined;
+}
 
 const judged = new WeakMap<Robot, string>();
 
 /**
- * Why a robot is not the one of the library whose id it carries: both sets of numbers in one sentence. Undefined when
- * it is, and for ids that the library does not have.
+ * Why a robot is not the one of the library whose id it carries, or its vendor section not that of its arm: both sets
+ * of numbers in one sentence. Undefined where nothing contradicts.
  */
 export function falseIdentity(robot: Robot): string | undefined {
-  const known = robotById(robot.id);
-  if (known === undefined || known === robot) return undefined;
+  const known = publishedRobot(robot.id);
+  if (known === robot) return undefined;
   let said = judged.get(robot);
   if (said === undefined) {
-    const answer = compareWithLibrary(robot, known);
+    const answer = known === undefined ? undefined : compareWithLibrary(robot, known);
+    const wrong = falseSection(robot);
     said =
-      answer.kind === "same"
-        ? ""
-        : `The robot is called ${robot.id}, but is not the ${known.name}: ${answer.difference}.`;
+      answer?.kind === "other"
+        ? `The robot is called ${robot.id}, but is not the ${known!.name}: ${answer.difference}.`
+        : wrong === undefined
+          ? ""
+          : `The vendor section is not that of the ${robot.name}: ${wrong}`;
     judged.set(robot, said);
   }
   return said === "" ? undefined : said;

@@ -1,10 +1,13 @@
-import { pose, type Pose } from "../spatial/pose.ts";
-import { fromEulerAngles } from "../spatial/turns.ts";
+import { pose } from "../spatial/pose.ts";
 import { norm, scale, type Vector3 } from "../spatial/vector.ts";
 import { Reader, type Fields } from "../json/reader.ts";
 import type { Joint } from "../model/arm.ts";
 import { robotFromArm, type KnownOfRobot } from "./foreign.ts";
+import { falseSection } from "./identity.ts";
+import { placed, textsOf } from "./parse-fields.ts";
+import { vendorSectionOf } from "./parse-vendor.ts";
 import type { Robot } from "../model/robot.ts";
+import type { VendorSection } from "../model/vendor.ts";
 
 /** A robot file that was read, or every fault in it with its place. */
 /** What a robot file says of itself. */
@@ -61,9 +64,12 @@ const JOINT = [
 export function parseRobot(value: unknown): RobotAnswer {
   const reader = new Reader(MOST_FAULTS);
   const robot = robotOf(reader, value);
-  return robot === undefined || reader.faults.length > 0
-    ? { kind: "not-a-robot", faults: reader.faults }
-    : { kind: "robot", robot };
+  if (robot !== undefined && reader.faults.length === 0) {
+    const wrong = falseSection(robot);
+    if (wrong === undefined) return { kind: "robot", robot };
+    reader.fault("vendor.postures", wrong);
+  }
+  return { kind: "not-a-robot", faults: reader.faults };
 }
 
 function robotOf(reader: Reader, value: unknown): Robot | undefined {
@@ -97,12 +103,14 @@ function robotOf(reader: Reader, value: unknown): Robot | undefined {
       if (joint !== undefined && !(home[j]! >= joint.limits.lower_rad && home[j]! <= joint.limits.upper_rad))
         reader.fault(`home_rad[${j}]`, `home of joint ${j + 1} is inside its limits; here it is ${home[j]}.`);
     });
+  const maker = makerOf(reader, file.vendor, joints.length);
   const amount = (key: string, unit: string): number | undefined => amountOf(reader, file, key, unit);
   const known: KnownOfRobot = present<KnownOfRobot>({
     id,
     name,
     home_rad: home,
-    vendor: file.vendor === undefined ? undefined : reader.text(file.vendor, "vendor", "the vendor"),
+    vendor: maker.name,
+    vendorSection: maker.section,
     baseFromVendorWorld:
       file.vendor_world === undefined
         ? undefined
@@ -113,7 +121,7 @@ function robotOf(reader: Reader, value: unknown): Robot | undefined {
     repeatability_m: amount("repeatability_m", "m"),
     maxTcpSpeed_mps: amount("max_tcp_speed_mps", "m/s"),
     shapeError_m: amount("shape_error_m", "m"),
-    sources: file.sources === undefined ? undefined : textsOf(reader, file.sources),
+    sources: file.sources === undefined ? undefined : textsOf(reader, file.sources, "sources"),
     assumptions: [...ramps(list), ...(file.assumptions === undefined ? [] : sentences(reader, file.assumptions))],
   });
   if (flange === undefined || reader.faults.length > 0) return undefined;
@@ -121,6 +129,21 @@ function robotOf(reader: Reader, value: unknown): Robot | undefined {
     { name: name ?? "", joints: joints.filter(joint => joint !== undefined), lastJointFromFlange: flange },
     known,
   );
+}
+
+/** `"vendor": "ABB"`, or the whole section with the maker as its `name`. */
+function makerOf(
+  reader: Reader,
+  value: unknown,
+  joints: number,
+): { readonly name: string | undefined; readonly section: VendorSection | undefined } {
+  if (value === undefined || typeof value === "string") return { name: value, section: undefined };
+  const file = reader.object(value, "vendor", "the vendor");
+  if (file === undefined) return { name: undefined, section: undefined };
+  return {
+    name: reader.name(file.name, "vendor.name", "the name of the vendor"),
+    section: vendorSectionOf(reader, file, "vendor", joints),
+  };
 }
 
 function jointOf(reader: Reader, value: unknown, index: number): Joint | undefined {
@@ -182,28 +205,6 @@ function jointOf(reader: Reader, value: unknown, index: number): Joint | undefin
   };
 }
 
-/** `xyz_m` and `rpy_rad` of an object, R = Rz(yaw) Ry(pitch) Rx(roll); both 0 when left out. */
-function placed<Into extends string, From extends string>(
-  reader: Reader,
-  value: unknown,
-  path: string,
-  what: string,
-): Pose<Into, From> | undefined {
-  const file = reader.object(value, path, what);
-  if (file === undefined) return undefined;
-  const xyz =
-    file.xyz_m === undefined ? [0, 0, 0] : reader.numbers(file.xyz_m, `${path}.xyz_m`, `the place of ${what}`, "m", 3);
-  const rpy =
-    file.rpy_rad === undefined
-      ? [0, 0, 0]
-      : reader.numbers(file.rpy_rad, `${path}.rpy_rad`, `the turn of ${what}`, "rad", 3);
-  if (xyz === undefined || rpy === undefined) return undefined;
-  return pose<Into, From>(
-    xyz as Vector3,
-    rpy.every(angle => angle === 0) ? [0, 0, 0, 1] : fromEulerAngles("zyx", rpy[2]!, rpy[1]!, rpy[0]!),
-  );
-}
-
 /** A number that is not below 0, or nothing when the file leaves it out. */
 function amountOf(reader: Reader, file: Fields, key: string, unit: string): number | undefined {
   if (file[key] === undefined) return undefined;
@@ -216,16 +217,6 @@ function amountOf(reader: Reader, file: Fields, key: string, unit: string): numb
 /** The fields that hold something: what is left out must be absent, not undefined. */
 const present = <T extends object>(fields: { readonly [K in keyof T]: T[K] | undefined }): T =>
   Object.fromEntries(Object.entries(fields).filter(([, value]) => value !== undefined)) as T;
-
-function textsOf(reader: Reader, value: unknown): Record<string, string> {
-  const fields = reader.object(value, "sources", "sources") ?? {};
-  return Object.fromEntries(
-    Object.entries(fields).flatMap(([key, text]) => {
-      const read = reader.text(text, `sources.${key}`, `the source of ${key}`);
-      return read === undefined ? [] : [[key, read]];
-    }),
-  );
-}
 
 const sentences = (reader: Reader, value: unknown): string[] =>
   (reader.list(value, "assumptions", "assumptions") ?? []).flatMap(

@@ -1,25 +1,32 @@
-import { identity, type Dialect, type EmittedFile, type Program, type Robot } from "@twincell/core";
+import {
+  identity,
+  sectionForLanguage,
+  type Dialect,
+  type EmittedFile,
+  type Program,
+  type VendorSection,
+} from "@twincell/core";
 import { tellsRobot, undeclared, writtenOr } from "./cannot.ts";
 import { Place } from "./place.ts";
 
 /** What a door through which programs go out has of its own. */
-export interface Emitter<Spoken> {
+export interface Emitter {
+  /** Id of the language, as vendor sections name it. */
+  readonly id: string;
   /** What the language is called. */
   readonly language: string;
-  /** What is known of a robot's controller, or undefined where it does not speak the language. */
-  readonly spokenBy: (robot: Robot) => Spoken | undefined;
   readonly cannot: Dialect["cannot"];
-  readonly write: (place: Place, spoken: Spoken) => EmittedFile;
+  readonly write: (place: Place, section: VendorSection) => EmittedFile;
   /** What the user should know of a text that was written. */
   readonly warnings: (program: Program) => readonly string[];
 }
 
 /** One file, or the step that stands in the way: never a part of a program. */
 export const emitterOf =
-  <Spoken>({ language, spokenBy, cannot, write, warnings }: Emitter<Spoken>): Dialect["emit"] =>
+  ({ id, language, cannot, write, warnings }: Emitter): Dialect["emit"] =>
   (program, robot, worldFromBase = identity()) => {
-    const spoken = spokenBy(robot);
-    if (spoken === undefined)
+    const section = sectionForLanguage(robot, id);
+    if (section === undefined)
       return {
         kind: "cannot",
         step: "",
@@ -30,7 +37,7 @@ export const emitterOf =
       undeclared(program, cannot) ??
       writtenOr(() => ({
         kind: "emitted",
-        files: [write(new Place(program, robot, worldFromBase), spoken)],
+        files: [write(new Place(program, robot, worldFromBase), section)],
         warnings: [...tellsRobot(program, robot), ...warnings(program)],
       }))
     );

@@ -12,3 +12,4 @@ export * from "./basic-modules.ts";
 export * from "./six-numbers.ts";
 export * from "./emitter.ts";
 export * from "./line-ranges.ts";
+export * from "./shown-axes.ts";

@@ -7,6 +7,8 @@ const DEG_DECIMALS = 5;
 const UPRIGHT = "90";
 
 export const mmText = (value_m: number): string => fixed(millimetres(value_m), MM_DECIMALS);
+/** An angle in degrees as texts of BASICs write it. */
+export const degreesText = (value_deg: number): string => fixed(value_deg, DEG_DECIMALS);
 export const degText = (value_rad: number): string => fixed(degrees(value_rad), DEG_DECIMALS);
 
 /**

@@ -6,9 +6,10 @@ import {
   type Pose,
   type Program,
   type Robot,
+  sectionForLanguage,
 } from "@twincell/core";
 import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { GRIPPER_OUTPUT, pendantConvention } from "./robots.ts";
+import { GRIPPER_OUTPUT } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -30,7 +31,7 @@ export const FASTEST_MMPS = 2000;
 
 /** The programs, one file each, or the step that stands in the way: never a part of a program. */
 export function emitFanucLs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const convention = pendantConvention(robot);
+  const convention = sectionForLanguage(robot, "fanuc-ls");
   if (convention === undefined) {
     return {
       kind: "cannot",

@@ -1,8 +1,7 @@
-import type { Step } from "@twincell/core";
+import { sectionForLanguage, type Step } from "@twincell/core";
 import { TextError, textFault } from "../parser/index.ts";
 import { blockEntryPoints, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/source.ts";
-import { hasPendant } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
 import { assumption } from "./run/setups.ts";
 
@@ -16,7 +15,7 @@ const MOST_STEPS = 200_000;
  */
 export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader = blockEntryPoints({
   name: "FANUC TP",
-  speaks: hasPendant,
+  speaks: robot => sectionForLanguage(robot, "fanuc-ls") !== undefined,
   read: readSource,
   notExecuted: ({ kept }) => kept,
   script: (source, robot, worldFromBase) => ({

@@ -8,8 +8,10 @@ import {
   type Program,
   type Robot,
   type Step,
+  sectionForLanguage,
+  type VendorSection,
 } from "@twincell/core";
-import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts";
+import type { PulseData } from "./pulses.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
@@ -53,7 +55,7 @@ export function emitInform(
   worldFromBase: Pose<"world", "base">,
   pulses: PulseData | undefined,
 ): Emitted {
-  const convention = axisConvention(robot);
+  const convention = sectionForLanguage(robot, "inform");
   if (convention === undefined) {
     return {
       kind: "cannot",
@@ -98,7 +100,7 @@ function written(
   program: Program,
   robot: Robot,
   worldFromBase: Pose<"world", "base">,
-  convention: AxisConvention,
+  convention: VendorSection,
   pulses: PulseData | undefined,
 ): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
   const steps = [...everyStep(program)];

@@ -1,19 +1,18 @@
-import { identity, type Dialect, type EmittedFile, type Resolution, type Robot } from "@twincell/core";
+import { LIBRARY, identity, type Dialect, type EmittedFile, type Resolution, type Robot } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitInform } from "./emit.ts";
 import { interpretInform } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 import { parseInform } from "./parse.ts";
-import { EXAMPLE_PULSES, type PulseData } from "./robots.ts";
-
-export { EXAMPLE_PULSES, type PulseData } from "./robots.ts";
+import { pulsesOf, type PulseData } from "./pulses.ts";
 
 export interface InformOptions {
   /**
-   * Pulses per degree by robot id, from the parameter file of its controller. With them jobs in pulses are understood.
+   * Takes made-up pulses per degree too, as the vendor section of the GP8 has them: for virtual controllers. Left out,
+   * jobs in pulses are understood for robots whose section has those of their own controller.
    */
-  readonly pulses?: Readonly<Record<string, PulseData>>;
-  /** How positions are written: in X, Y, Z, or in pulses, which is refused for a robot without `pulses`. */
+  readonly examplePulses?: boolean;
+  /** How positions are written: in X, Y, Z, or in pulses, which is refused for a robot without them. */
   readonly positions?: "rectan" | "pulse";
 }
 
@@ -33,10 +32,10 @@ const HAND_M = 0.4;
 const DEG = Math.PI / 180;
 
 /** What half a pulse of every axis at once does to the tool at most, over the robots that are known. */
-function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolution {
+function pulseResolution(): Resolution {
   let angle_rad = 0;
   let position_m = 0;
-  for (const { pulsesPerDegree } of Object.values(pulses)) {
+  for (const { pulsesPerDegree } of LIBRARY.flatMap(robot => pulsesOf(robot, true) ?? [])) {
     const half = pulsesPerDegree.map(value => (0.5 / Math.abs(value)) * DEG);
     const sum = half.reduce((a, b) => a + b, 0);
     angle_rad = Math.max(angle_rad, sum);
@@ -49,8 +48,8 @@ function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolutio
 }
 
 /** INFORM of Yaskawa controllers from the NX100 on. */
-export function informDialect({ pulses = {}, positions = "rectan" }: InformOptions = {}): Dialect {
-  const of = (robot: Robot): PulseData | undefined => (Object.hasOwn(pulses, robot.id) ? pulses[robot.id] : undefined);
+export function informDialect({ examplePulses = false, positions = "rectan" }: InformOptions = {}): Dialect {
+  const of = (robot: Robot): PulseData | undefined => pulsesOf(robot, examplePulses);
   const inPulses = positions === "pulse";
   return skippingDialect({
     id: inPulses ? "inform-pulse" : "inform",
@@ -68,7 +67,7 @@ export function informDialect({ pulses = {}, positions = "rectan" }: InformOptio
           },
         ]
       : CANNOT,
-    resolution: inPulses ? pulseResolution(pulses) : STEPS,
+    resolution: inPulses ? pulseResolution() : STEPS,
     runnable: asOne,
     emit(program, robot, worldFromBase = identity()) {
       const data = of(robot);
@@ -101,4 +100,4 @@ function asOne(files: readonly EmittedFile[]): EmittedFile {
 export const inform: Dialect = informDialect();
 
 /** With positions in pulses, for virtual controllers: its numbers are examples. */
-export const informExamplePulses: Dialect = informDialect({ pulses: EXAMPLE_PULSES, positions: "pulse" });
+export const informExamplePulses: Dialect = informDialect({ examplePulses: true, positions: "pulse" });

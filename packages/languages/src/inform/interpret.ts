@@ -1,7 +1,7 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
 import { Notices, dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
-import type { PulseData } from "./robots.ts";
+import type { PulseData } from "./pulses.ts";
 import { Arm } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
 import { ControllerState, type Context } from "./run/state.ts";

@@ -2,7 +2,7 @@ import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/cor
 import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { executable, openInform, type Run } from "./interpret.ts";
-import type { PulseData } from "./robots.ts";
+import type { PulseData } from "./pulses.ts";
 import { keptOnController } from "./run/state.ts";
 
 /**

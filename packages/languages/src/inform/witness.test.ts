@@ -15,6 +15,7 @@ import {
   type Pallet,
   type Pose,
   type Program,
+  type Robot,
   type Signals,
   type Step,
 } from "@twincell/core";
@@ -328,22 +329,23 @@ describe("what is written", () => {
       kind: "cannot",
       sentence: "The pulses per degree of this Yaskawa GP8 are not known.",
     });
-    const own = informDialect({
-      positions: "pulse",
-      pulses: { yaskawa_gp8: { pulsesPerDegree: [100, 100, 100, 100, 100, 100], source: "ALL.PRM of the cell" } },
+    const withPulses = (perDegree: readonly number[]): Robot => ({
+      ...robot,
+      vendorSection: {
+        ...robot.vendorSection!,
+        pulses: { perRadian: perDegree.map(value => (value * 180) / Math.PI), source: "ALL.PRM of the cell" },
+      },
     });
-    expect(emitted(program([move("a", [10, 20, 30, 0, -90, 5.004])]), own).jobs[0]).toContain(
-      "C00000=1000,2000,3000,0,-9000,500",
+    const own = unknown.emit(
+      program([move("a", [10, 20, 30, 0, -90, 5.004])]),
+      withPulses([100, 100, 100, 100, 100, 100]),
     );
+    expect(own.kind === "emitted" && own.files[0]!.text).toContain("C00000=1000,2000,3000,0,-9000,500");
     expect(emitted(program(steps), informExamplePulses).warnings.join(" ")).toMatch(
       /example for the virtual controller/,
     );
-    expect(emitted(program(steps), own).warnings.join(" ")).toMatch(/by ALL\.PRM of the cell/);
-    const short = informDialect({
-      positions: "pulse",
-      pulses: { yaskawa_gp8: { pulsesPerDegree: [100, 100], source: "x" } },
-    });
-    expect(short.emit(program(steps), robot).kind).toBe("cannot");
+    expect(own.kind === "emitted" && own.warnings.join(" ")).toMatch(/by ALL\.PRM of the cell/);
+    expect(unknown.emit(program(steps), withPulses([100, 100])).kind).toBe("cannot");
   });
 
   const signals: Program["signals"] = {

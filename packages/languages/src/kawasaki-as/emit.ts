@@ -1,7 +1,6 @@
 import type { Dialect, Emitted, Pose, Program, Robot } from "@twincell/core";
-import { everyStep } from "@twincell/core";
+import { everyStep, sectionForLanguage } from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { supportedBy } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -20,8 +19,8 @@ export const CANNOT: Dialect["cannot"] = [
 
 /** One file with the program and its routines, or the step that stands in the way: never a part of a program. */
 export function emitAs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const spoken = supportedBy(robot);
-  if (spoken === undefined) {
+  const section = sectionForLanguage(robot, "kawasaki-as");
+  if (section === undefined) {
     return {
       kind: "cannot",
       step: "",
@@ -32,7 +31,7 @@ export function emitAs(program: Program, robot: Robot, worldFromBase: Pose<"worl
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), spoken);
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), section);
     const file = writer.write();
     return { kind: "emitted", files: [file], warnings: [...tellsRobot(program, robot), ...warnings(program)] };
   });

@@ -1,6 +1,7 @@
+import { sectionForLanguage } from "@twincell/core";
 import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
-import { Machine, speaksAs } from "./run/machine.ts";
+import { Machine } from "./run/machine.ts";
 
 /**
  * Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the
@@ -8,7 +9,7 @@ import { Machine, speaksAs } from "./run/machine.ts";
  */
 export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockEntryPoints({
   name: "AS",
-  speaks: speaksAs,
+  speaks: robot => sectionForLanguage(robot, "kawasaki-as") !== undefined,
   read: readSource,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());

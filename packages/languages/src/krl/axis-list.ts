@@ -1,6 +1,12 @@
-import type { Emitted, MoveStep, Program, Robot, TextForm } from "@twincell/core";
-import { axisConvention } from "./robots.ts";
-import { axisValues } from "./write/location.ts";
+import {
+  sectionForLanguage,
+  type Emitted,
+  type MoveStep,
+  type Program,
+  type Robot,
+  type TextForm,
+} from "@twincell/core";
+import { shownAxes } from "../emitter/index.ts";
 import { TextWriter } from "./write/text-writer.ts";
 
 const AXES = 6;
@@ -27,7 +33,7 @@ export const axisList: TextForm = {
 };
 
 function emitPtpAxis(program: Program, robot: Robot): Emitted {
-  const convention = axisConvention(robot);
+  const convention = sectionForLanguage(robot, "krl");
   if (convention === undefined)
     return {
       kind: "cannot",
@@ -53,7 +59,7 @@ function emitPtpAxis(program: Program, robot: Robot): Emitted {
         sentence: `Step ${step.name ?? step.id} is no joint motion to joint angles, and the list of axis positions holds nothing else.`,
         hint: "Export as KRL.",
       };
-    const [a1, a2, a3, a4, a5, a6] = axisValues(step.target.q, convention).map(value =>
+    const [a1, a2, a3, a4, a5, a6] = shownAxes(convention, step.target.q).map(value =>
       String(Number(value.toPrecision(DIGITS)) + 0),
     );
     out.add(`PTP {AXIS:A1 ${a1!}, A2 ${a2!},A3 ${a3!}, A4 ${a4!}, A5 ${a5!}, A6 ${a6!}}`, step.id);

@@ -8,8 +8,8 @@ import {
   type Program,
   type Robot,
   type Step,
+  sectionForLanguage,
 } from "@twincell/core";
-import { axisConvention } from "./robots.ts";
 import { KRL_LINES, WalkedPlace, outOfRange } from "../emitter/index.ts";
 import { configurationsOf } from "./write/postures.ts";
 import { ModuleWriter } from "./write/program.ts";
@@ -33,7 +33,7 @@ type Refusal = Extract<Emitted, { kind: "cannot" }>;
 
 /** The module (.src) and its data list (.dat), or the step that stands in the way: never a part of a program. */
 export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const convention = axisConvention(robot);
+  const convention = sectionForLanguage(robot, "krl");
   if (convention === undefined) {
     return {
       kind: "cannot",

@@ -1,6 +1,5 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
-import { supportedBy } from "./robots.ts";
 import { MelfaProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -23,9 +22,9 @@ export const CANNOT: Dialect["cannot"] = [
  */
 export const emitMelfa = emitterOf({
   language: "MELFA-BASIC",
-  spokenBy: supportedBy,
+  id: "melfa-basic",
   cannot: CANNOT,
-  write: (place, spoken) => new MelfaProgram(place, spoken).write(),
+  write: (place, section) => new MelfaProgram(place, section).write(),
   warnings,
 });
 

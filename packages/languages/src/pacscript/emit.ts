@@ -1,6 +1,6 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
-import { GRIPPER, supportedBy } from "./robots.ts";
+import { GRIPPER } from "./robots.ts";
 import { PacProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -15,9 +15,9 @@ export const CANNOT: Dialect["cannot"] = [
 /** One file with `Main` and the subs that it calls, or the step that stands in the way: never a part of a program. */
 export const emitPac = emitterOf({
   language: "PacScript",
-  spokenBy: supportedBy,
+  id: "pacscript",
   cannot: CANNOT,
-  write: (place, spoken) => new PacProgram(place, spoken).write(),
+  write: (place, section) => new PacProgram(place, section).write(),
   warnings,
 });
 

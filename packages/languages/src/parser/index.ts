@@ -12,3 +12,4 @@ export * from "./naming.ts";
 export * from "./declared-cell.ts";
 export * from "./unrolled.ts";
 export * from "./remember.ts";
+export * from "./shown-axes.ts";

@@ -1,6 +1,14 @@
-import { everyStep, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
+import {
+  everyStep,
+  sectionForLanguage,
+  type Dialect,
+  type Emitted,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { GRIPPER_SIGNAL, configurationOf } from "./robots.ts";
+import { GRIPPER_SIGNAL } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -11,8 +19,8 @@ const MANY_MOVES = 5_000;
 
 /** The module and the list that loads it, or the step that stands in the way: never a part of a program. */
 export function emitRapid(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const configuration = configurationOf(robot);
-  if (configuration === undefined) {
+  const section = sectionForLanguage(robot, "rapid");
+  if (section === undefined) {
     return {
       kind: "cannot",
       step: "",
@@ -23,7 +31,7 @@ export function emitRapid(program: Program, robot: Robot, worldFromBase: Pose<"w
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), configuration);
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), section);
     const files = writer.write();
     let moves = 0;
     let hasGripper = false;

@@ -1,17 +1,12 @@
+import { sectionForLanguage } from "@twincell/core";
 import { blockEntryPoints, changedNames, routineScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine } from "./run/machine.ts";
 
-/**
- * Robots whose controllers speak RAPID. Their joint angles are those of the library: none is coupled, turned round or
- * counted from elsewhere.
- */
-const SPEAKS: ReadonlySet<string> = new Set(["abb_irb120", "abb_crb15000_5_95"]);
-
 /** Executes and reads RAPID: PROC main, or the only routine of the text. */
 export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blockEntryPoints({
   name: "RAPID",
-  speaks: ({ id }) => SPEAKS.has(id),
+  speaks: robot => sectionForLanguage(robot, "rapid") !== undefined,
   read: readSource,
   script(source, robot, worldFromBase) {
     const changing = changedNames(

@@ -1,6 +1,6 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
-import { GRIPPER, supportedBy } from "./robots.ts";
+import { GRIPPER } from "./robots.ts";
 import { SpelProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -23,9 +23,9 @@ export const CANNOT: Dialect["cannot"] = [
  */
 export const emitSpel = emitterOf({
   language: "SPEL+",
-  spokenBy: supportedBy,
+  id: "spel",
   cannot: CANNOT,
-  write: (place, spoken) => new SpelProgram(place, spoken).write(),
+  write: (place, section) => new SpelProgram(place, section).write(),
   warnings,
 });
 

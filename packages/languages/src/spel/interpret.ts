@@ -1,11 +1,12 @@
+import { sectionForLanguage } from "@twincell/core";
 import { basicEntryPoints } from "../parser/basic/index.ts";
 import { readSpel } from "./read/grammar.ts";
-import { SpelMachine, hasSpel } from "./run/machine.ts";
+import { SpelMachine } from "./run/machine.ts";
 
 /** Reads and executes SPEL+: `main` and the functions that it calls. */
 export const { interpret: interpretSpel, parse: parseSpel } = basicEntryPoints({
   name: "SPEL+",
-  speaks: ({ id }) => hasSpel(id),
+  speaks: robot => sectionForLanguage(robot, "spel") !== undefined,
   read: readSpel,
   machine: stage => new SpelMachine(stage),
 });

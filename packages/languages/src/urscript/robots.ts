@@ -1,16 +1,16 @@
-import type { Robot } from "@twincell/core";
+import { countsAsFile, sectionForLanguage, type Robot } from "@twincell/core";
 
 /**
- * Robots whose controllers speak URScript, with the joint speed at which all their joints can turn [rad/s]: full speed
- * of a joint move. Joint angles are those of the library: the arm lies stretched out at 0, every joint turns
- * right-handed.
+ * Joint speed at which all joints of an arm can turn [rad/s]: full speed of a joint move. Undefined for a robot whose
+ * controllers do not run URScript, or count its joints otherwise than its file does: URScript has no zero and no sign
+ * to set.
  */
-const FULL_SPEED_RAD_S: Readonly<Record<string, number>> = {
-  ur10e: (2 * Math.PI) / 3,
-};
-
-/** Full joint speed [rad/s], or undefined for a robot whose controller does not speak URScript. */
-export const fullJointSpeed = (robot: Robot): number | undefined => FULL_SPEED_RAD_S[robot.id];
+export function fullJointSpeed(robot: Robot): number | undefined {
+  const section = sectionForLanguage(robot, "urscript");
+  return section !== undefined && countsAsFile(section)
+    ? Math.min(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s))
+    : undefined;
+}
 
 /**
  * Digital lines of the control box and the tool by their number in the program: 0 … 7 standard, 8 … 15 configurable, 16

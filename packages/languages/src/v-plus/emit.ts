@@ -8,8 +8,8 @@ import {
   type Program,
   type Robot,
   type Step,
+  sectionForLanguage,
 } from "@twincell/core";
-import { jointConvention } from "./robots.ts";
 import { VPLUS_LINES, outOfRange } from "../emitter/index.ts";
 import { MAX_POINTS, pointList } from "./write/point-list.ts";
 import { configurationsOf, type Place } from "./write/postures.ts";
@@ -33,7 +33,7 @@ const MAX_TIMES = 2 ** 24;
  * The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program.
  */
 export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const convention = jointConvention(robot);
+  const convention = sectionForLanguage(robot, "v-plus");
   if (convention === undefined) {
     return {
       kind: "cannot",

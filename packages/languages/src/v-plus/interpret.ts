@@ -1,7 +1,6 @@
 import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { dryRun, textFault } from "../parser/index.ts";
+import { ShownAxes, dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
-import { jointConvention } from "./robots.ts";
 import { Machine } from "./run/machine.ts";
 import type { DeclaredContext } from "./run/state.ts";
 
@@ -10,8 +9,8 @@ import type { DeclaredContext } from "./run/state.ts";
  * of the robot, wherever its base stands in the cell.
  */
 export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
-  const convention = jointConvention(robot);
-  if (convention === undefined) {
+  const axes = ShownAxes.of(robot, "v-plus");
+  if (axes === undefined) {
     return {
       kind: "not-understood",
       faults: [
@@ -27,7 +26,7 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
   if (read.kind === "not-understood") return read;
   const met: DeclaredContext = { tools: {}, lines: {} };
   const run = (signals?: Signals): Generator<Executed, void> =>
-    new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
+    new Machine(read.source, robot, axes, worldFromBase, met, signals).run();
   const fault = dryRun(run());
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };

@@ -1,6 +1,14 @@
-import { everyStep, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
+import {
+  everyStep,
+  sectionForLanguage,
+  type Dialect,
+  type Emitted,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
-import { VALVE, speaksVal3 } from "./robots.ts";
+import { VALVE } from "./robots.ts";
 import { ApplicationWriter } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -13,7 +21,8 @@ export const CANNOT: Dialect["cannot"] = [
 
 /** The files of an application, or the step that stands in the way: never a part of a program. */
 export function emitVal3(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  if (!speaksVal3(robot))
+  const section = sectionForLanguage(robot, "val3");
+  if (section === undefined)
     return {
       kind: "cannot",
       step: "",
@@ -23,7 +32,7 @@ export function emitVal3(program: Program, robot: Robot, worldFromBase: Pose<"wo
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const files = new ApplicationWriter(new Place(program, robot, worldFromBase)).write();
+    const files = new ApplicationWriter(new Place(program, robot, worldFromBase), section).write();
     const steps = [...everyStep(program)];
     const title = files.at(-1)!.name.replace(/\.pjx$/, "");
     const usesLines = steps.some(({ type }) => type === "set" || type === "wait-for" || type === "if");

@@ -1,5 +1,5 @@
 import type { Robot } from "@twincell/core";
-import { DRIVER_KINDS, robotsOf } from "@twincell/controllers";
+import { DRIVER_KINDS, drivesRobot } from "@twincell/controllers";
 import { useMemo } from "react";
 import { languagesOf } from "../../stores/languages.ts";
 import { showNumber } from "../../ui/expression.ts";
@@ -10,7 +10,7 @@ import { Picture } from "./Picture.tsx";
 /** Everything that is known of a robot, and what is not. */
 export function Details({ robot }: { readonly robot: Robot }) {
   const languages = useMemo(() => languagesOf(robot).filter(({ why }) => why === null), [robot]);
-  const drivers = useMemo(() => DRIVER_KINDS.filter(kind => robotsOf(kind).some(({ id }) => id === robot.id)), [robot]);
+  const drivers = useMemo(() => DRIVER_KINDS.filter(kind => drivesRobot(kind, robot)), [robot]);
   return (
     <section className="robots-details stack" aria-label={robot.name} aria-live="polite">
       <Picture robot={robot} width={360} height={200} />

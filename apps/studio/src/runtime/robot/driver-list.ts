@@ -6,7 +6,7 @@ import { words } from "../../messages/index.ts";
 export interface OfferedDriver {
   readonly id: string;
   readonly name: string;
-  /** Of the library, that it drives. */
+  /** Of the library and the catalogue, that it drives. */
   readonly robots: readonly Robot[];
   readonly data: readonly ConnectionParameter[];
   /** A port that is asked for, where there is no vendor who fixed it. */
@@ -21,7 +21,10 @@ export const DRIVER_LIST: readonly OfferedDriver[] = [
   ...DRIVER_KINDS.map(kind => ({
     id: kind.id,
     name: kind.name,
-    robots: robotsOf(kind),
+    // Asked for when it is shown: the catalogue comes after the start.
+    get robots() {
+      return robotsOf(kind);
+    },
     data: kind.data ?? [],
     port: null,
   })),

@@ -78,7 +78,7 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
   const left = new Set<string>();
   // One session for as long as this driver lives: a controller has seventy, and what it holds is given back in it.
   const session = new RwsSession(options.login ?? RWS_LOGIN);
-  let panel = new PanelState(n);
+  let panel = new PanelState(robot);
   let events: AdapterEvents | null = null;
   let life = 0;
   let polling = false;
@@ -241,9 +241,9 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
     if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404))
       return fail(say.noServices(host, port, type.sentence), type.kind === "lost" || type.status === 503);
     const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
-    if (model !== undefined && !isAbbModel(options.model ?? robot.name, model))
+    if (model !== undefined && !isAbbModel(options.model ?? robot.vendorSection?.model ?? robot.name, model))
       return fail(say.otherRobot(robot, model), false);
-    const now = (panel = new PanelState(n));
+    const now = (panel = new PanelState(robot));
     sample.signals = now.lines;
     for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
       const flaw = take(resource, await own.get(PANEL[resource]));

@@ -1,6 +1,6 @@
 import {
-  degrees,
-  radians,
+  axesOfJoints,
+  jointsOfAxes,
   Stepper,
   type CommandOutcome,
   type Pose,
@@ -13,6 +13,7 @@ import type { AdapterMotion } from "../../driver/index.ts";
 import type { Address, DatagramSocket, Network } from "../../transport/index.ts";
 import { EGM_PORT, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot, type EgmRobot } from "../codec/index.ts";
 import { linkClosed, notStreamed, notStreamedBecause, taken, wasStopped } from "./words.ts";
+import { abbAxes } from "../codec/axes.ts";
 
 export interface SetpointStreamOptions {
   readonly robot: Robot;
@@ -88,6 +89,9 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
   const q_rad = Float64Array.from(robot.home_rad);
   const target_rad = q_rad.slice();
   const next_rad = q_rad.slice();
+  const before_rad = q_rad.slice();
+  const before_deg = q_rad.slice();
+  const counting = abbAxes(robot);
   let socket: DatagramSocket | null = null;
   let events: SetpointStreamEvents | null = null;
   let going: Going | null = null;
@@ -116,21 +120,21 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
       }
       if (state.kind !== "running") going.isSent = true;
     }
-    for (let i = 0; i < n; i++) {
-      answer.joints_deg[i] = degrees(next_rad[i]!);
-      answer.speeds_deg_s[i] = dt_s > 0 ? degrees((next_rad[i]! - target_rad[i]!) / dt_s) : 0;
-    }
+    axesOfJoints(counting, target_rad, before_deg);
+    axesOfJoints(counting, next_rad, answer.joints_deg);
+    for (let i = 0; i < n; i++) answer.speeds_deg_s[i] = dt_s > 0 ? (answer.joints_deg[i]! - before_deg[i]!) / dt_s : 0;
     target_rad.set(next_rad);
   }
 
   function take(from: Address, dt_s: number): void {
     let fastest = 0;
     let gap_rad = 0;
+    before_rad.set(q_rad);
+    jointsOfAxes(counting, message.joints_deg, q_rad);
     for (let i = 0; i < n; i++) {
-      const before_rad = q_rad[i]!;
-      q_rad[i] = radians(message.joints_deg[i]!);
+      const before = before_rad[i]!;
       if (fresh) target_rad[i] = q_rad[i]!;
-      else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(q_rad[i]! - before_rad) / dt_s);
+      else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(q_rad[i]! - before) / dt_s);
       gap_rad = Math.max(gap_rad, Math.abs(target_rad[i]! - q_rad[i]!));
     }
     // Somebody else moves it, or it still brakes from what moved it before.

@@ -1,5 +1,6 @@
-import { radians, type OperatingMode, type SafetyState } from "@twincell/core";
+import { jointsOfAxes, type AxisCounting, type OperatingMode, type Robot, type SafetyState } from "@twincell/core";
 import { readJoints, type RwsState } from "../codec/index.ts";
+import { abbAxes } from "../codec/axes.ts";
 
 /** What a controller said of itself over Robot Web Services, resource by resource. */
 export class PanelState {
@@ -13,7 +14,11 @@ export class PanelState {
   readonly q_rad: Float64Array;
   private readonly joints_deg: Float64Array;
 
-  constructor(joints: number) {
+  private readonly counting: AxisCounting;
+
+  constructor(robot: Robot) {
+    const joints = robot.arm.joints.length;
+    this.counting = abbAxes(robot);
     this.q_rad = new Float64Array(joints);
     this.joints_deg = new Float64Array(joints);
   }
@@ -59,7 +64,7 @@ export class PanelState {
   takeJoints([state]: readonly RwsState[]): number | null {
     const count = state ? readJoints(state.fields, this.joints_deg) : 0;
     if (count === 0) return null;
-    if (count === this.q_rad.length) for (let i = 0; i < count; i++) this.q_rad[i] = radians(this.joints_deg[i]!);
+    if (count === this.q_rad.length) jointsOfAxes(this.counting, this.joints_deg, this.q_rad);
     return count;
   }
   takeLines(states: readonly RwsState[]): void {

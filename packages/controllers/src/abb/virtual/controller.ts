@@ -209,7 +209,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
       scheduler,
       log,
       robot,
-      model: options.model ?? robot.name.replace(/^ABB /, ""),
+      model: options.model ?? robot.vendorSection?.model ?? robot.name.replace(/^ABB /, ""),
       q_rad: () => neutral.jointAngles(),
       cabinet: virtualPendant,
       programs,

@@ -1,4 +1,4 @@
-import { degrees, flangePose, radians, type Robot } from "@twincell/core";
+import { axesOfJoints, degrees, flangePose, jointsOfAxes, type AxisCounting, type Robot } from "@twincell/core";
 import type { Address, DatagramSocket } from "../../transport/index.ts";
 import {
   COMM_TIMEOUT_S,
@@ -11,6 +11,7 @@ import {
   readEgmSensor,
   type EgmPose,
 } from "../codec/index.ts";
+import { abbAxes } from "../codec/axes.ts";
 
 export interface EgmMotionOptions {
   readonly robot: Robot;
@@ -50,6 +51,9 @@ export class EgmMotion {
   private silent_s = -Infinity;
   private timeout_s: number;
   private sequence = 0;
+  private readonly counting: AxisCounting;
+  private readonly asked_rad: Float64Array;
+  private readonly ahead_deg: Float64Array;
 
   constructor(options: EgmMotionOptions, q_rad: Float64Array) {
     const n = q_rad.length;
@@ -58,6 +62,9 @@ export class EgmMotion {
     this.v_rad_s = new Float64Array(n);
     this.target_rad = q_rad.slice();
     this.wanted_rad_s = new Float64Array(n);
+    this.counting = abbAxes(options.robot);
+    this.asked_rad = q_rad.slice();
+    this.ahead_deg = new Float64Array(n);
     this.timeout_s = options.commTimeout_s ?? COMM_TIMEOUT_S;
     this.out.axes = n;
     options.socket.onDatagram((lent, from) => {
@@ -129,9 +136,9 @@ export class EgmMotion {
   tell(time_ms: number): void {
     const { out, q_rad } = this;
     let converged = true;
+    axesOfJoints(this.counting, q_rad, out.joints_deg);
+    axesOfJoints(this.counting, this.target_rad, out.planned_deg);
     for (let i = 0; i < q_rad.length; i++) {
-      out.joints_deg[i] = degrees(q_rad[i]!);
-      out.planned_deg[i] = degrees(this.target_rad[i]!);
       converged &&= Math.abs(degrees(this.target_rad[i]! - q_rad[i]!)) < CONVERGED_DEG;
     }
     this.tellPose(q_rad, out.pose);
@@ -180,18 +187,22 @@ export class EgmMotion {
       return;
     }
     if (!this.isRunning) return;
+    jointsOfAxes(this.counting, heard.joints_deg, this.asked_rad);
     for (let i = 0; i < n; i++) {
       const { lower_rad, upper_rad } = joints[i]!.limits;
-      const q = radians(heard.joints_deg[i]!);
+      const q = this.asked_rad[i]!;
       if (q < lower_rad - SLACK_RAD || q > upper_rad + SLACK_RAD) {
         this.fail(`Joint ${i + 1} was told to go to ${heard.joints_deg[i]!.toFixed(1)}°, beyond its limit.`);
         return;
       }
     }
     this.silent_s = 0;
-    for (let i = 0; i < n; i++) {
-      this.target_rad[i] = radians(heard.joints_deg[i]!);
-      this.wanted_rad_s[i] = heard.hasSpeeds ? radians(heard.speeds_deg_s[i]!) : 0;
-    }
+    this.target_rad.set(this.asked_rad);
+    this.wanted_rad_s.fill(0);
+    if (!heard.hasSpeeds) return;
+    // Axes are counted linearly: what a second at that speed adds.
+    for (let i = 0; i < n; i++) this.ahead_deg[i] = heard.joints_deg[i]! + heard.speeds_deg_s[i]!;
+    jointsOfAxes(this.counting, this.ahead_deg, this.wanted_rad_s);
+    for (let i = 0; i < n; i++) this.wanted_rad_s[i]! -= this.asked_rad[i]!;
   }
 }

@@ -1,4 +1,4 @@
-import { degrees, flangePose, type Robot } from "@twincell/core";
+import { axesOfJoints, flangePose, type Robot } from "@twincell/core";
 import { latin1Text, readForm, readTarget, type HttpRequest } from "../../http/index.ts";
 import { EXTERNAL_AXES, NO_AXIS, ROBOT_AXES, RWS_CODE, TASK, UNIT, type RwsState } from "../codec/index.ts";
 import type { VirtualPendant } from "./cabinet.ts";
@@ -8,6 +8,7 @@ import type { Line, Lines } from "./lines.ts";
 import type { Programs } from "./programs.ts";
 import { DOMAINS, type Domain, type Session, type Sessions } from "./sessions.ts";
 import { dataOf, withValue } from "./symbols.ts";
+import { abbAxes } from "../codec/axes.ts";
 
 /** What the resources tell of. */
 export interface ResourceOptions {
@@ -53,6 +54,7 @@ export function createResources(
   sessions: Sessions,
 ): (session: Session, request: HttpRequest) => Answer {
   const { cabinet: virtualPendant, programs, files, lines, robot } = options;
+  const counting = abbAxes(robot);
 
   /** Why this client may not write; null when it may. */
   function unwritable(session: Session, domain?: Domain): Answer | null {
@@ -213,11 +215,12 @@ export function createResources(
   function motion(path: readonly string[]): Answer {
     if (path[0] !== "mechunits" || path[1]?.toUpperCase() !== UNIT) return no(404, "There is no such mechanical unit.");
     const q_rad = options.q_rad();
-    const external = (i: number): number => (6 + i < q_rad.length ? degrees(q_rad[6 + i]!) : NO_AXIS);
+    const axes_deg = axesOfJoints(counting, q_rad, new Float64Array(q_rad.length));
+    const external = (i: number): number => axes_deg[6 + i] ?? NO_AXIS;
     if (path[2] === "jointtarget") {
       return states(
         state("ms-jointtarget", UNIT, {
-          ...Object.fromEntries(ROBOT_AXES.map((name, i) => [name, i < q_rad.length ? degrees(q_rad[i]!) : NO_AXIS])),
+          ...Object.fromEntries(ROBOT_AXES.map((name, i) => [name, axes_deg[i] ?? NO_AXIS])),
           ...Object.fromEntries(EXTERNAL_AXES.map((name, i) => [name, external(i)])),
         }),
       );
@@ -227,7 +230,7 @@ export function createResources(
       position: [x, y, z],
       quaternion: [qx, qy, qz, qw],
     } = flangePose(robot.arm, q_rad);
-    const quarter = (i: number): number => Math.floor((q_rad[i] ?? 0) / (Math.PI / 2));
+    const quarter = (i: number): number => Math.floor((axes_deg[i] ?? 0) / 90);
     return states(
       state("ms-robtargets", UNIT, {
         x: x * 1000,

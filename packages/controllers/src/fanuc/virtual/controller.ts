@@ -9,6 +9,9 @@ import {
   type Pose,
   type Robot,
   type Scheduler,
+  sectionForDriver,
+  axesOfJoints,
+  type AxisCounting,
 } from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
@@ -24,8 +27,7 @@ import {
   rmiNumber,
   type RmiPacket,
 } from "../codec-rmi.ts";
-import { configurationOf } from "../configuration.ts";
-import { fanucJoints, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
+import { configurationOf, JOINTS } from "../configuration.ts";
 import { instructionOf, type Instruction } from "./instructions.ts";
 import { serveFtp } from "./ftp-server.ts";
 import { FanucMachine, T1_MPS, type FanucKey } from "./machine.ts";
@@ -43,7 +45,6 @@ export interface VirtualFanucOptions {
   readonly ftpPort?: number;
   /** Executes TP listings, the first of them one behind the other. Without it none is understood. */
   readonly interpret?: (text: string) => Interpreted;
-  readonly joints?: FanucJoints;
   readonly start_rad?: ArrayLike<number>;
   readonly maxSpeed?: number;
   readonly digits?: number;
@@ -102,10 +103,11 @@ const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
  */
 export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<FanucStarted> {
   const { robot, scheduler, network, host } = options;
-  const joints = options.joints ?? fanucJoints(robot);
+  const section = sectionForDriver(robot, "fanuc");
   const digits = options.digits ?? 5;
-  if (!joints || robot.arm.joints.length !== JOINTS)
+  if (section === undefined || robot.arm.joints.length !== JOINTS)
     return { kind: "taken", sentence: `How a FANUC controller shows the joints of ${robot.name} is not known.` };
+  const joints: AxisCounting = section;
   const log =
     options.log ??
     ((): void => {
@@ -267,7 +269,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         return {
           ...only(RMI_ERROR.ok),
           TimeTag,
-          JointAngle: jointPart(shownOf(now_rad, joints!, shown), digits),
+          JointAngle: jointPart(axesOfJoints(joints, now_rad, shown), digits),
           Group: 1,
         };
       case "FRC_ReadCartesianPosition": {
@@ -315,7 +317,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
       const reply = {
         name,
         sequence: Number.isFinite(sequence) ? sequence : 0,
-        instruction: instructionOf(packet, robot, joints!),
+        instruction: instructionOf(packet, robot, joints),
       };
       const why = !running
         ? RMI_ERROR.notRunning

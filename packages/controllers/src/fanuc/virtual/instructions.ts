@@ -7,10 +7,12 @@ import {
   type Pose,
   type Robot,
   type Step,
+  type AxisCounting,
+  axesOfJoints,
+  jointsOfAxes,
 } from "@twincell/core";
 import { RMI_ERROR, rmiJoints, rmiNumber, rmiPart, type RmiPacket } from "../codec-rmi.ts";
-import { askedConfiguration, branchOfConfiguration, jointsIn } from "../configuration.ts";
-import { jointsOf, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
+import { askedConfiguration, branchOfConfiguration, jointsIn, JOINTS } from "../configuration.ts";
 
 export type Instruction =
   | { readonly kind: "step"; readonly make: (q_rad: Float64Array) => Step }
@@ -24,7 +26,7 @@ const error = (id: number): Instruction => ({ kind: "error", id });
  * What an instruction makes the arm do; its target may count from where the arm then stands. Passing a point (CNT, CR)
  * ends at it.
  */
-export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints: FanucJoints): Instruction {
+export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints: AxisCounting): Instruction {
   switch (name) {
     case "FRC_WaitTime": {
       const s = rmiNumber(fields, "Time");
@@ -51,13 +53,13 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
         make: q_rad => {
           const target = j_deg.slice();
           if (name === "FRC_JointRelativeJRep")
-            shownOf(q_rad, joints, new Float64Array(JOINTS)).forEach((value, i) => {
+            axesOfJoints(joints, q_rad, new Float64Array(JOINTS)).forEach((value, i) => {
               target[i]! += value;
             });
           return {
             ...speed,
             path: name.startsWith("FRC_Linear") ? "lin" : "ptp",
-            target: { q: [...jointsOf(target, joints, new Float64Array(JOINTS))] },
+            target: { q: [...jointsOfAxes(joints, target, new Float64Array(JOINTS))] },
           };
         },
       };
@@ -94,7 +96,7 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
               pose: at as Pose<"frame", "tcp">,
               frame: "world",
               tool: "flange",
-              ...(asked ? { branch: branchOfConfiguration(asked) } : {}),
+              ...(asked ? { branch: branchOfConfiguration(robot, asked) } : {}),
             },
           };
         },

@@ -1,7 +1,15 @@
-import type { CommandOutcome, EmittedFile, UploadedProgram, Refusal, Robot, Scheduler } from "@twincell/core";
+import {
+  axesOfJoints,
+  type CommandOutcome,
+  type EmittedFile,
+  type UploadedProgram,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+} from "@twincell/core";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { AXES, axesOf, e6axis, e6pos, kukaAxes, type KukaAxes } from "../axes.ts";
+import { AXES, e6axis, e6pos, kukaAxes } from "../axes.ts";
 import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec-c3.ts";
 import { krlReal, numberIn, textIn } from "../codec-values.ts";
 import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
@@ -21,7 +29,6 @@ export interface KukaAdapterOptions {
   readonly port?: number;
   /** States are read this often [s]; 12 ms, the controller's own cycle, when left out. */
   readonly period_s?: number;
-  readonly axes?: KukaAxes;
   /** What the controller calls the robot in $MODEL_NAME[], where that is not its name in the library. */
   readonly model?: string;
   /** $OUT of the gripper; TRUE closes. */
@@ -65,7 +72,7 @@ const ON_PATH_S = 0.3;
  */
 export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
-  const axes = options.axes ?? kukaAxes(robot);
+  const axes = kukaAxes(robot);
   const port = options.port ?? C3_PORT;
   const program = options.program ?? LOOP_NAME;
   const period_s = options.period_s ?? 0.012;
@@ -246,7 +253,7 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
         ...common,
         [TWC.kind, String(TWC_KIND.joints)],
         [TWC.ratio, percent(motion.ratio)],
-        [TWC.axis, e6axis(axesOf(motion.q_rad, axes!, new Float64Array(AXES)), DIGITS)],
+        [TWC.axis, e6axis(axesOfJoints(axes!, motion.q_rad, new Float64Array(AXES)), DIGITS)],
       ];
     const path: (readonly [string, string])[] = [
       ...common,

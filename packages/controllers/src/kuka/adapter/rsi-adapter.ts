@@ -1,7 +1,16 @@
-import { Stepper, type CommandOutcome, type EmittedFile, type JointSample, type Pose, type Step } from "@twincell/core";
+import {
+  Stepper,
+  type CommandOutcome,
+  type EmittedFile,
+  type JointSample,
+  type Pose,
+  type Step,
+  axesOfJoints,
+  jointsOfAxes,
+} from "@twincell/core";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
 import type { DatagramSocket } from "../../transport/index.ts";
-import { AXES, axesOf, jointsOf, kukaAxes } from "../axes.ts";
+import { AXES, kukaAxes } from "../axes.ts";
 import { readRsi, rsiAxes, rsiWriter, type RsiConfig } from "../codec-rsi.ts";
 import { RSI_NAME } from "../loop.ts";
 import { createKukaAdapter, type KukaAdapterOptions } from "./adapter.ts";
@@ -50,7 +59,7 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
   const { robot, scheduler, network, config } = options;
   const cycle_s = options.cycle_s ?? 0.004;
   const base = createKukaAdapter({ ...options, program: RSI_NAME });
-  const axes = options.axes ?? kukaAxes(robot);
+  const axes = kukaAxes(robot);
   const write = rsiWriter("Sen", config.senType, config.receive, options.decimals ?? 6);
   const a_deg = new Float64Array(AXES);
   const before_deg = new Float64Array(AXES);
@@ -92,8 +101,8 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     const mine = streaming;
     if (!mine) return;
     const state = mine.stepper.advance(cycle_s, override, next_rad);
-    axesOf(commanded_rad, axes!, now_deg);
-    axesOf(next_rad, axes!, next_deg);
+    axesOfJoints(axes!, commanded_rad, now_deg);
+    axesOfJoints(axes!, next_rad, next_deg);
     commanded_rad.set(next_rad);
     for (let i = 0; i < AXES; i++) values.set(KEYS[i]!, next_deg[i]! - now_deg[i]!);
     if (state.kind === "running") return;
@@ -106,7 +115,7 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
       if (mine.resting >= UNDER_WAY) settle({ kind: "stopped", why: say.stoppedHere(robot) });
       return;
     }
-    axesOf(mine.target_rad, axes!, next_deg);
+    axesOfJoints(axes!, mine.target_rad, next_deg);
     const off_deg = next_deg.reduce((most, value, i) => Math.max(most, Math.abs(value - a_deg[i]!)), 0);
     // The last increments are still under way in the first telegrams.
     if (mine.resting < UNDER_WAY) return;
@@ -120,7 +129,7 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     }
     // Increments were lost on the way: what is missing is driven as a motion of its own.
     mine.resting = 0;
-    jointsOf(a_deg, axes!, commanded_rad);
+    jointsOfAxes(axes!, a_deg, commanded_rad);
     mine.stepper = new Stepper(
       robot,
       NOTHING,
@@ -160,7 +169,7 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     }
     lent.sequence += first || !(elapsed > 0) ? 1 : elapsed;
     lent.time_s = ipoc / 1000;
-    jointsOf(a_deg, axes!, lent.q_rad);
+    jointsOfAxes(axes!, a_deg, lent.q_rad);
     lent.override = override;
     lent.moving =
       a_deg.some((value, i) => Math.abs(value - before_deg[i]!) > STANDS_DEG) ||

@@ -1,5 +1,11 @@
-import type { JointSample, OperatingMode, SafetyState } from "@twincell/core";
-import { AXES, AXIS_NAMES, jointsOf, type KukaAxes } from "../axes.ts";
+import {
+  jointsOfAxes,
+  type JointSample,
+  type OperatingMode,
+  type SafetyState,
+  type AxisCounting,
+} from "@twincell/core";
+import { AXES, AXIS_NAMES } from "../axes.ts";
 import type { C3Item } from "../codec-c3-replies.ts";
 import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
 import { TWC } from "../loop.ts";
@@ -43,7 +49,7 @@ export class KukaState {
   done = 0;
   result = 0;
   private readonly own: string;
-  private readonly axes: KukaAxes;
+  private readonly axes: AxisCounting;
   private readonly lines: readonly string[];
   private readonly gripper: string;
   private readonly values = new Map<string, boolean | number>();
@@ -53,7 +59,7 @@ export class KukaState {
   private timer_ms = NaN;
 
   /** @param own  the program that moves the robot for us. @param gripper  the line the gripper hangs on, or "". */
-  constructor(own: string, axes: KukaAxes, lines: readonly string[], gripper: string) {
+  constructor(own: string, axes: AxisCounting, lines: readonly string[], gripper: string) {
     this.own = own;
     this.axes = axes;
     this.lines = lines;
@@ -105,7 +111,7 @@ export class KukaState {
     });
     sample.sequence++;
     sample.time_s = Number.isNaN(timer_ms) ? now_s : (timer_ms + this.turns * TIMER_TURN_MS) / 1000;
-    jointsOf(this.a_deg, this.axes, sample.q_rad);
+    jointsOfAxes(this.axes, this.a_deg, sample.q_rad);
     sample.mode = MODES[this.mode] ?? "manual";
     sample.override = numberIn(text(5)) / 100;
     sample.safety = safetyOf(

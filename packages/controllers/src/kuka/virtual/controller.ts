@@ -2,7 +2,7 @@ import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@t
 import { slowed } from "../../guard/index.ts";
 import type { DatagramSocket, Listening, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { kukaAxes, type KukaAxes } from "../axes.ts";
+import { kukaAxes } from "../axes.ts";
 import { C3_PORT } from "../codec-c3.ts";
 import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec-discovery.ts";
 import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../loop.ts";
@@ -26,8 +26,6 @@ export interface VirtualKukaOptions {
   readonly port?: number;
   /** Executes KRL: a .src with its .dat behind it. */
   readonly interpret: (text: string) => Interpreted;
-  /** Of the axes, where the arm is described otherwise than KUKA counts. */
-  readonly axes?: KukaAxes;
   readonly mode?: KukaMode;
   readonly start_rad?: ArrayLike<number>;
   readonly maxSpeed?: number;
@@ -104,7 +102,7 @@ export interface VirtualKuka {
  */
 export async function createVirtualKuka(options: VirtualKukaOptions): Promise<VirtualKuka> {
   const { robot, scheduler, network, host } = options;
-  const axes = options.axes ?? kukaAxes(robot);
+  const axes = kukaAxes(robot);
   if (!axes) throw new RangeError(`How a KUKA controller counts the axes of ${robot.name} is not known.`);
   const log =
     options.log ??

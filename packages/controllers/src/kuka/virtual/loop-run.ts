@@ -1,6 +1,6 @@
-import type { MoveStep, Pose } from "@twincell/core";
+import { jointsOfAxes, type MoveStep, type Pose, type AxisCounting } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, AXIS_NAMES, jointsOf, poseIn, type KukaAxes } from "../axes.ts";
+import { AXES, AXIS_NAMES, poseIn } from "../axes.ts";
 import { partsIn } from "../codec-values.ts";
 import { TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
 import type { Builtin } from "./builtin.ts";
@@ -22,7 +22,7 @@ export class LoopRun implements Builtin {
   private readonly timers: Timers;
   private readonly arm: VirtualController;
   private readonly machine: Machine;
-  private readonly axes: KukaAxes;
+  private readonly axes: AxisCounting;
   private readonly slow: (step: MoveStep) => MoveStep;
   private motion: MoveStep | null = null;
   private now = 0;
@@ -34,7 +34,7 @@ export class LoopRun implements Builtin {
     timers: Timers,
     arm: VirtualController,
     machine: Machine,
-    axes: KukaAxes,
+    axes: AxisCounting,
     slow: (step: MoveStep) => MoveStep,
   ) {
     this.globals = globals;
@@ -110,7 +110,7 @@ export class LoopRun implements Builtin {
         ...base,
         path: "ptp",
         acceleration,
-        target: { q: [...jointsOf(a_deg, this.axes, new Float64Array(AXES))] },
+        target: { q: [...jointsOfAxes(this.axes, a_deg, new Float64Array(AXES))] },
         speed: { ratio: percent(TWC.ratio) },
       };
     }

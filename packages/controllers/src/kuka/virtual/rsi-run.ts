@@ -11,10 +11,13 @@ import {
   type Pose,
   type Robot,
   type Scheduler,
+  type AxisCounting,
+  axesOfJoints,
+  jointsOfAxes,
 } from "@twincell/core";
 import type { DatagramSocket, Network } from "../../transport/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, AXIS_NAMES, axesOf, jointsOf, type KukaAxes } from "../axes.ts";
+import { AXES, AXIS_NAMES } from "../axes.ts";
 import { readRsi, rsiKeys, rsiNumber, rsiWriter, type RsiConfig, type RsiValue } from "../codec-rsi.ts";
 import type { Builtin } from "./builtin.ts";
 import { TWC } from "../loop.ts";
@@ -38,7 +41,7 @@ const FRAME = ["X", "Y", "Z", "A", "B", "C"] as const;
 
 export interface RsiSources {
   readonly robot: Robot;
-  readonly axes: KukaAxes;
+  readonly axes: AxisCounting;
   readonly arm: VirtualController;
   readonly machine: Machine;
   readonly scheduler: Scheduler;
@@ -127,7 +130,7 @@ export class RsiRun implements Builtin {
     const { arm, axes, robot } = this.from;
     this.corrections.clear();
     this.total.clear();
-    axesOf(arm.jointAngles(), axes, this.start_deg);
+    axesOfJoints(axes, arm.jointAngles(), this.start_deg);
     this.start = flangePose(robot.arm, arm.jointAngles());
     // The set point is the program's: corrections do not show in it.
     const start = this.start;
@@ -174,7 +177,7 @@ export class RsiRun implements Builtin {
     const q_rad = arm.jointAngles();
     const at = flangePose(this.from.robot.arm, q_rad);
     const angles = toKukaAbc(at.quaternion);
-    axesOf(q_rad, axes, this.axes_deg);
+    axesOfJoints(axes, q_rad, this.axes_deg);
     AXIS_NAMES.forEach((name, i) => {
       this.values.set(`AIPos.${name}`, this.axes_deg[i]!).set(`ASPos.${name}`, this.start_deg[i]!);
     });
@@ -231,10 +234,10 @@ export class RsiRun implements Builtin {
       const reach = solveAll(robot, wanted, { near: is_rad });
       if (reach.kind !== "reached") return "RSI: the corrected place is out of reach";
       q_rad.set(reach.solutions[0]!.q_rad);
-      axesOf(q_rad, axes, this.axes_deg);
+      axesOfJoints(axes, q_rad, this.axes_deg);
     } else this.axes_deg.set(this.start_deg);
     for (let i = 0; i < AXES; i++) this.axes_deg[i]! += a[i]!;
-    jointsOf(this.axes_deg, axes, q_rad);
+    jointsOfAxes(axes, this.axes_deg, q_rad);
     for (const [
       i,
       {

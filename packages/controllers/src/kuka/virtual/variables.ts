@@ -1,6 +1,6 @@
-import { distance, flangePose, type Robot, type Vector3 } from "@twincell/core";
+import { distance, flangePose, type Robot, type Vector3, type AxisCounting, axesOfJoints } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, axesOf, e6axis, flangeText, type KukaAxes } from "../axes.ts";
+import { AXES, e6axis, flangeText } from "../axes.ts";
 import { boolIn, krlBool, krlReal, krlText, numberIn, REAL_DIGITS } from "../codec-values.ts";
 import type { Globals, Timers } from "./globals.ts";
 import type { Machine } from "./machine.ts";
@@ -19,7 +19,7 @@ export interface Now {
 }
 export interface VariableSources {
   readonly robot: Robot;
-  readonly axes: KukaAxes;
+  readonly axes: AxisCounting;
   readonly identity: KukaIdentity;
   readonly machine: Machine;
   readonly programs: Programs;
@@ -50,11 +50,11 @@ export function kukaVariables(from: VariableSources): Variables {
   const digits = from.digits ?? REAL_DIGITS;
   const a_deg = new Float64Array(AXES);
   const speed = tcpSpeed(robot, now);
-  const axis = (): string => e6axis(axesOf(now.q_rad, axes, a_deg), digits);
+  const axis = (): string => e6axis(axesOfJoints(axes, now.q_rad, a_deg), digits);
   const system = new Map<string, () => string>([
     ["$AXIS_ACT", axis],
     ["$AXIS_ACT_MEAS", axis],
-    ["$POS_ACT", () => flangeText(robot, now.q_rad, axesOf(now.q_rad, axes, a_deg), digits)],
+    ["$POS_ACT", () => flangeText(robot, now.q_rad, axesOfJoints(axes, now.q_rad, a_deg), digits)],
     ["$VEL_ACT", () => krlReal(speed(), digits)],
     // Counts to 2³¹ − 1 and begins again.
     ["$ROB_TIMER", () => String(Math.round(1000 * now.time_s) % 0x80000000)],

@@ -1,10 +1,30 @@
-import type { CommandOutcome, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
+import {
+  sectionForDriver,
+  type CommandOutcome,
+  type JointSample,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  axesOfJoints,
+  jointsOfAxes,
+} from "@twincell/core";
 import { stoppedInReset } from "../../refusals.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { errorOf, LINE_PORT, POINT, pointText, PROGRAM, readValues, readWhere, STATE, TASK, TWC } from "../codec.ts";
-import { JOINTS, jointsOf, shownOf, vPlusJoints, type VPlusJoints } from "../joints.ts";
+import {
+  errorOf,
+  LINE_PORT,
+  POINT,
+  pointText,
+  PROGRAM,
+  readValues,
+  readWhere,
+  STATE,
+  TASK,
+  TWC,
+  JOINTS,
+} from "../codec.ts";
 import { openLine, type Line } from "./line.ts";
 import {
   beyond,
@@ -29,7 +49,6 @@ export interface Cs7FaceOptions {
   readonly network: Network;
   readonly host: string;
   readonly port?: number;
-  readonly joints?: VPlusJoints;
   /** States are asked for this often, as far as the line can carry it [s]. */
   readonly period_s?: number;
   readonly stale_s?: number;
@@ -75,7 +94,7 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
       options.baud === undefined ? 0 : (MISSED * POLL_LETTERS * LETTER_BITS) / options.baud,
     );
   const { robot, scheduler, network, host } = options;
-  const joints = options.joints ?? vPlusJoints(robot);
+  const joints = sectionForDriver(robot, "staubli-cs7");
   const period_s = options.period_s ?? PERIOD_S;
   const j_deg = new Float64Array(JOINTS).fill(NaN);
   const values = new Map<string, boolean | number>();
@@ -158,7 +177,7 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
     const mine = life;
     const { motion: wanted } = at;
     const isLine = wanted.path !== "joints";
-    const shown = shownOf(wanted.q_rad, joints!, new Float64Array(JOINTS));
+    const shown = axesOfJoints(joints!, wanted.q_rad, new Float64Array(JOINTS));
     at.id = next++;
     at.begun = at.over = at.held = false;
     aside = "";
@@ -232,7 +251,7 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
     if (moving && !moving.ending && words !== "") end(moving, stopped(taken(words)));
     if (moving?.begun && done === moving.id) moving.over = true;
     look(stands);
-    jointsOf(j_deg, joints!, lent.q_rad);
+    jointsOfAxes(joints!, j_deg, lent.q_rad);
     lent.sequence++;
     lent.time_s = scheduler.now_s() - begun_s;
     lent.mode = state === STATE.manual ? "manual" : "remote";

@@ -1,9 +1,15 @@
-import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@twincell/core";
+import {
+  sectionForDriver,
+  type CommandOutcome,
+  type Interpreted,
+  type MoveStep,
+  type Robot,
+  type Scheduler,
+} from "@twincell/core";
 import { slowed } from "../../guard/index.ts";
 import { faultyLine, noLineFaults, type ByteStream, type LineFaults, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { isText, LINE_PORT, LONGEST, textBytes } from "../codec.ts";
-import { JOINTS, vPlusJoints, type VPlusJoints } from "../joints.ts";
+import { isText, LINE_PORT, LONGEST, textBytes, JOINTS } from "../codec.ts";
 import { Machine } from "./machine.ts";
 import { createMonitor, type Said } from "./monitor.ts";
 import { Programs } from "./programs.ts";
@@ -16,7 +22,6 @@ export interface VirtualCs7Options {
   readonly port?: number;
   /** Executes V+: a disk file, or a list of terminal commands. */
   readonly interpret: (text: string) => Interpreted;
-  readonly joints?: VPlusJoints;
   readonly start_rad?: ArrayLike<number>;
   readonly maxSpeed?: number;
   /** Behind the point of what WHERE says: three on a real one. */
@@ -69,7 +74,7 @@ const URGENT = /^\s*(PANIC|ABORT|DO\s+BRAKE)\b/i;
 /** A CS7 of numbers behind the raw line of its monitor: one terminal, echo, prompt, programs in a task beside it. */
 export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7Started> {
   const { robot, scheduler, network, host, interpret } = options;
-  const joints = options.joints ?? vPlusJoints(robot);
+  const joints = sectionForDriver(robot, "staubli-cs7");
   const log =
     options.log ??
     ((): void => {

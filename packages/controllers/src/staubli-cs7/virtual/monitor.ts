@@ -7,10 +7,11 @@ import {
   type Pose,
   type Robot,
   type Step,
+  type AxisCounting,
+  axesOfJoints,
 } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { readPoint, STATE, stateName, valuesText, whereText } from "../codec.ts";
-import { JOINTS, shownOf, type VPlusJoints } from "../joints.ts";
+import { readPoint, STATE, stateName, valuesText, whereText, JOINTS } from "../codec.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
 
@@ -56,7 +57,7 @@ export interface MonitorOptions {
   readonly arm: VirtualController;
   readonly machine: Machine;
   readonly programs: Programs;
-  readonly joints: VPlusJoints;
+  readonly joints: AxisCounting;
   readonly interpret: (text: string) => Interpreted;
   /** The joints that are told; they may stand still by a fault. */
   readonly now_rad: Float64Array;
@@ -144,7 +145,7 @@ export function createMonitor({
     const own = statement.replace(/\bHERE\b/gi, here());
     const lines = [
       ...programs.definitions,
-      `MOVE #PPOINT(${Array.from(shownOf(now_rad, joints, shown)).join(",")})`,
+      `MOVE #PPOINT(${Array.from(axesOfJoints(joints, now_rad, shown)).join(",")})`,
       own,
     ];
     const read = interpret(lines.map(line => `DO ${line}`).join("\n"));
@@ -176,7 +177,7 @@ export function createMonitor({
       matching.find(each => each === word.toUpperCase()) ?? (matching.length === 1 ? matching[0] : undefined);
     switch (command) {
       case "WHERE":
-        return { text: whereText(place(), shownOf(now_rad, joints, shown), digits) };
+        return { text: whereText(place(), axesOfJoints(joints, now_rad, shown), digits) };
       case "LISTR":
         return listReals(rest);
       case "LISTL":
@@ -249,7 +250,7 @@ export function createMonitor({
         };
       case "HERE": {
         if (!new RegExp(`^#?${NAME}$`).test(rest)) return said("*Illegal monitor command*");
-        const values = rest.startsWith("#") ? Array.from(shownOf(now_rad, joints, shown)) : place();
+        const values = rest.startsWith("#") ? Array.from(axesOfJoints(joints, now_rad, shown)) : place();
         const text = values.map(each => each.toFixed(3).padStart(10)).join("");
         const why = rest.startsWith("#") ? programs.setPoint(rest, values) : programs.define(`SET ${rest} = ${here()}`);
         return why ? said(why) : { text: `${text}\r\nChange? `, asks: () => said(null) };

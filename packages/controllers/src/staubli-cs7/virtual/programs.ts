@@ -1,8 +1,16 @@
-import { radians, type CommandOutcome, type Interpreted, type MoveStep, type Robot, type Step } from "@twincell/core";
+import {
+  radians,
+  type CommandOutcome,
+  type Interpreted,
+  type MoveStep,
+  type Robot,
+  type Step,
+  type AxisCounting,
+  jointsOfAxes,
+} from "@twincell/core";
 import { TextRun } from "../../runner/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
-import { JOINTS, jointsOf, type VPlusJoints } from "../joints.ts";
-import { PROGRAM, TWC } from "../codec.ts";
+import { PROGRAM, TWC, JOINTS } from "../codec.ts";
 import type { Machine } from "./machine.ts";
 
 const MOST_TEXT = 4_000_000;
@@ -25,7 +33,7 @@ export class Programs {
   private readonly arm: VirtualController;
   private readonly machine: Machine;
   private readonly robot: Robot;
-  private readonly joints: VPlusJoints;
+  private readonly joints: AxisCounting;
   private readonly interpret: (text: string) => Interpreted;
   private readonly say: (text: string) => void;
   private task: { readonly run: TextRun; readonly context: Parameters<VirtualController["run"]>[1] } | null = null;
@@ -37,7 +45,7 @@ export class Programs {
     arm: VirtualController,
     machine: Machine,
     robot: Robot,
-    joints: VPlusJoints,
+    joints: AxisCounting,
     interpret: (text: string) => Interpreted,
     say: (text: string) => void,
   ) {
@@ -149,7 +157,7 @@ export class Programs {
     return null;
   }
   step(point: readonly number[], isLine: boolean, speed: MoveStep["speed"], acceleration: number): MoveStep {
-    const q = [...jointsOf(point, this.joints, new Float64Array(JOINTS))].map((value, i) => {
+    const q = [...jointsOfAxes(this.joints, point, new Float64Array(JOINTS))].map((value, i) => {
       // A ten-thousandth of a degree beyond a limit is on it.
       const { lower_rad, upper_rad } = this.robot.arm.joints[i]!.limits;
       const slack = radians(1e-4);

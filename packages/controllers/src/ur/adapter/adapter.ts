@@ -270,9 +270,12 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
   }
 
   async function order(send: (orders: Orders) => number): Promise<CommandOutcome> {
+    const before = stops;
     const why = await program();
     const at = open;
     if (why || !at) return refused(why ?? words.noAnswer("There is no connection."));
+    // While the program was being started a stop may have come: what it stopped is not sent after it.
+    if (stops !== before) return stopped(words.ended(robot, "it was stopped."));
     at.said = "";
     return new Promise(resolve => {
       end(stopped(words.ended(robot, "another order came.")));

@@ -1,12 +1,15 @@
-import type { Robot } from "@twincell/core";
+import { countsAsFile, sectionForDriver, type Robot } from "@twincell/core";
 
-/** How controllers name their arms; the letter of the e-Series is not in it. */
-const MODELS: Readonly<Record<string, string>> = { ur10e: "UR10" };
 /** The number of an arm in the configuration part of the primary interface. */
 const TYPES: Readonly<Record<string, number>> = { UR5: 1, UR10: 2, UR3: 3, UR16: 4, UR20: 7, UR30: 8, UR15: 9 };
 
-/** What a controller answers to "get robot model" for that arm; an arm that is only data goes by its own name. */
-export const modelOf = (robot: Robot): string => MODELS[robot.id] ?? robot.name;
+/** What a controller answers to "get robot model" for that arm; one whose section does not say goes by its own name. */
+export const modelOf = (robot: Robot): string => robot.vendorSection?.model ?? robot.name;
+/** The controller says joints in radians as the robot's own file counts them: no sign, zero or coupling can be set. */
+export function countsAsUr(robot: Robot): boolean {
+  const section = sectionForDriver(robot, "ur");
+  return section !== undefined && countsAsFile(section);
+}
 export const typeOf = (model: string): number => TYPES[model] ?? 0;
 /** Robots of this brand have six joints, on every interface. */
 export const JOINTS = 6;

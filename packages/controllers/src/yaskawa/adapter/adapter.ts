@@ -8,7 +8,8 @@ import {
   ROBOT_PORT,
   SERVICE,
   EXAMPLE_OUTPUTS,
-  EXAMPLE_SCALE,
+  exampleScale,
+  ownScale,
   readAlarm,
   readJob,
   textAt,
@@ -81,7 +82,9 @@ const EXAMPLE_SIGNALS = Object.fromEntries(
 
 /** The high-speed Ethernet server as a face: states by asking, motion by commands, stop by hold. */
 export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
-  const { robot, scheduler, network, host, scale = EXAMPLE_SCALE } = options;
+  const { robot, scheduler, network, host } = options;
+  const known = options.scale ?? ownScale(robot);
+  const scale = known ?? exampleScale(robot);
   const n = robot.arm.joints.length;
   const state = robotState(robot, scale);
   const to = { host, port: options.ports?.robot ?? ROBOT_PORT };
@@ -186,14 +189,15 @@ export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
     const info = await ask(client, COMMAND.systemInfo, 11, OPEN_PATIENCE_S);
     if (info.kind === "silent") return { why: noWay(to, info), again: true };
     const isVirtual = isWell(info) && textAt(info.reply.data, 0, 24).startsWith(VIRTUAL);
-    if (options.scale === undefined && !isVirtual) return { why: unknownPulses(robot), again: false };
+    if (known === undefined && !isVirtual) return { why: unknownPulses(robot), again: false };
     if (isVirtual && options.signals === undefined && options.gripper === undefined) {
       outputsFrom ??= EXAMPLE_OUTPUTS;
       lines = tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER);
       hasGripper = true;
     }
     const model = isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "";
-    const wanted = options.model ?? robot.name.replace(new RegExp(`^${robot.vendor}\\s+`, "i"), "");
+    const wanted =
+      options.model ?? robot.vendorSection?.model ?? robot.name.replace(new RegExp(`^${robot.vendor}\\s+`, "i"), "");
     if (model !== "" && !plain(model).includes(plain(wanted)))
       return { why: otherModel(robot, wanted, model), again: false };
     const names = await ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);

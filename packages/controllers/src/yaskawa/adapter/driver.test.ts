@@ -2,7 +2,7 @@ import { flangePose, manualScheduler, type Step } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { createRealController } from "../../driver/index.ts";
 import { createTwin } from "../../twin/index.ts";
-import { resolution_rad } from "../codec/index.ts";
+import { exampleScale, resolution_rad, scaleWith } from "../codec/index.ts";
 import { HOST, bench, gp8, job, turned } from "../testing/bench.ts";
 import type { Client } from "./client.ts";
 import { lineTable, logicalOf, watchedLines } from "./lines.ts";
@@ -12,7 +12,7 @@ import { yaskawaAdapter } from "./index.ts";
 const FAR = gp8.home_rad.with(0, -2.8);
 const NOTHING = { tools: {}, frames: {} };
 const emitted = (name: string, text: string) => ({ name, text, lines: text.split("\n").map(() => "") });
-const half_rad = resolution_rad({ pulsesPerDegree: [1340, 1340, 1340, 1000, 1000, 620], source: "example" });
+const half_rad = resolution_rad(exampleScale(gp8));
 
 describe("the driver of Yaskawa's Ethernet server", () => {
   test("T-19 not connected, connected, and not any more", async () => {
@@ -51,12 +51,10 @@ describe("the driver of Yaskawa's Ethernet server", () => {
       },
     });
     const seven = { ...gp8, arm: { ...gp8.arm, joints: [...gp8.arm.joints, gp8.arm.joints[0]!] } };
-    expect(
-      await trial({}, { robot: seven, scale: { pulsesPerDegree: [1, 1, 1, 1, 1, 1, 1], source: "test" } }),
-    ).toMatchObject({
+    expect(await trial({}, { robot: seven, scale: scaleWith(seven, [1, 1, 1, 1, 1, 1, 1], "test") })).toMatchObject({
       why: { code: "link.other-robot", sentence: "Yaskawa GP8 has 7 axes; the YASKAWA GP8 that answers has 6." },
     });
-    expect(await trial({}, { scale: { pulsesPerDegree: [1, 1], source: "test" } })).toMatchObject({
+    expect(await trial({}, { scale: scaleWith(gp8, [1, 1], "test") })).toMatchObject({
       why: { code: "yaskawa.pulses" },
     });
   });

@@ -250,7 +250,7 @@ describe("what is no packet", () => {
 });
 
 describe("pulses", () => {
-  const scale = codec.EXAMPLE_SCALE;
+  const scale = codec.exampleScale(robot);
   test("a degree of each axis is so many pulses, with sign and zero where a controller has them", () => {
     expect([
       ...codec.pulsesOf(
@@ -259,7 +259,8 @@ describe("pulses", () => {
         new Int32Array(8),
       ),
     ]).toEqual([1340, 1340, -1340, 90_000, 0, -111_600, 0, 0]);
-    const turned = { ...scale, signs: [1, -1, 1, 1, 1, 1], offsets_deg: [0, 90, 0, 0, 0, 0] };
+    const { axes } = scale.counting;
+    const turned = { ...scale, counting: { axes: axes.with(1, { name: "L", sign: -1, zero_deg: 90 }) } };
     expect(codec.pulsesOf([0, Math.PI / 6, 0, 0, 0, 0], turned, new Int32Array(8))[1]).toBe(80_400);
     expect(codec.radiansOf(Int32Array.of(0, 80_400), turned, robot, new Float64Array(6))[1]).toBeCloseTo(
       Math.PI / 6,

@@ -11,7 +11,7 @@ import {
 } from "@twincell/core";
 import { createRealController } from "../../driver/index.ts";
 import { memoryNetwork, type DatagramSocket, type MemoryNetwork } from "../../transport/index.ts";
-import { DIVISION, EXAMPLE_SCALE, readReply, writeRequest, type HsesReply, type HsesRequest } from "../codec/index.ts";
+import { DIVISION, exampleScale, readReply, writeRequest, type HsesReply, type HsesRequest } from "../codec/index.ts";
 import { yaskawaAdapter, type YaskawaAdapter, type YaskawaAdapterOptions } from "../adapter/index.ts";
 import { createVirtualYaskawa, type VirtualYaskawa, type VirtualYaskawaOptions } from "../virtual/index.ts";
 
@@ -54,7 +54,14 @@ export async function bench(
     ...virtualOptions,
   });
   if (started.kind === "taken") throw new Error(started.sentence);
-  const adapter = yaskawaAdapter({ robot: gp8, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, ...faceOptions });
+  const adapter = yaskawaAdapter({
+    robot: gp8,
+    scheduler,
+    network,
+    host: HOST,
+    scale: exampleScale(gp8),
+    ...faceOptions,
+  });
   const real = createRealController({ face: adapter, scheduler });
   real.onSample(sample => {
     heard.push({ ...sample, q_rad: sample.q_rad.slice() });

@@ -11,7 +11,7 @@ import { addressText, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import {
   DIVISION,
-  EXAMPLE_SCALE,
+  exampleScale,
   FILE_PORT,
   HEADER_BYTES,
   LAST_BLOCK,
@@ -151,7 +151,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
     ...(maxSpeed === undefined ? {} : { maxSpeed }),
     ...(initialize ? { initialize } : {}),
   });
-  const scale = options.scale ?? EXAMPLE_SCALE;
+  const scale = options.scale ?? exampleScale(robot);
   const files = new Files();
   const variables = new Variables();
   const lines = new Lines(neutral.signals);
@@ -179,7 +179,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
     lines,
     variables,
     scale,
-    model: options.model ?? robot.name.toUpperCase(),
+    model: options.model ?? robot.vendorSection?.model ?? robot.name.toUpperCase(),
     unix_s,
     display: shown => {
       text = shown;

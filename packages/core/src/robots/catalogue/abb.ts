@@ -10,6 +10,7 @@ export const ABB: CatalogueMaker = {
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb1200_support/urdf/irb1200_5_90.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.3991 z -170 170 288.0259
 joint_2 0 0 0 y -100 130 240
@@ -25,6 +26,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb1200_support/urdf/irb1200_7_70.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.3991 z -170 170 288.0259
 joint_2 0 0 0 y -100 135 240
@@ -40,6 +42,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb1600_support/urdf/irb1600_6_12.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0 z -180 180 150
 joint_2 0.15 0 0.4865 y -63 110 160
@@ -55,6 +58,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb1600_support/urdf/irb1600_8_145.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0 z -180 180 180
 joint_2 0.15 0 0.4865 y -90 120 180
@@ -70,6 +74,14 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb",
       path: "abb_irb2400_support/urdf/irb2400_12_155.xacro",
+      section: {
+        kind: "abb",
+        couplings: [{ axis: 3, with: 2, factor: 1 }],
+        sources: {
+          couplings:
+            "ros-industrial/abb, J23_coupled = true of the IRB 2400: its parallel rod keeps the forearm, so axis 3 shows joint 3 and joint 2.",
+        },
+      },
       table: `
 joint_1 0 0 0 z -180 180 150
 joint_2 0.1 0 0.615 y -100 110 150
@@ -85,6 +97,7 @@ flange 0.085 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb2600_support/urdf/irb2600_12_165.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.445 z -180 180 175
 joint_2 0.15 0 0 y -155 95 175
@@ -100,6 +113,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb4600_support/urdf/irb4600_20_250.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.495 z -180 180 175
 joint_2 0.175 0 0 y -90 150 175
@@ -115,6 +129,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb4600_support/urdf/irb4600_40_255.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.495 z -180 180 175
 joint_2 0.175 0 0 y -90 150 175
@@ -130,6 +145,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb4600_support/urdf/irb4600_60_205.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.495 z -179.966 179.966 175
 joint_2 0.175 0 0 y -89.9544 149.9431 175
@@ -145,6 +161,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb",
       path: "abb_irb6640_support/urdf/irb6640_185_280.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.78 z -170 170 100
 joint_2 0.32 0 0 y -64.9734 85.1 90
@@ -160,6 +177,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb6700_support/urdf/irb6700_200_260.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.78 z -170 170 110
 joint_2 0.32 0 0 y -65 85 110
@@ -175,6 +193,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/abb_experimental",
       path: "abb_irb6700_support/urdf/irb6700_235_265.xacro",
+      section: { kind: "abb" },
       table: `
 joint_1 0 0 0.78 z -170 170 100
 joint_2 0.32 0 0 y -65 85 90

@@ -5,6 +5,7 @@ import type { Joint, SerialArm } from "../../model/arm.ts";
 import { robotFromArm } from "../foreign.ts";
 import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint, turned } from "../library/write.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData, type SectionData } from "../vendor-sections.ts";
 import { homeOf } from "./home.ts";
 import { REPOSITORIES } from "./repositories.ts";
 
@@ -26,6 +27,8 @@ export interface CatalogueEntry {
   /** Public description that axes, limits and speeds were read from: repository, then path with its arguments. */
   readonly repository: string;
   readonly path: string;
+  /** What the maker's controllers need; left out where it is not published or not sure. */
+  readonly section?: SectionData;
   /**
    * A joint a line, base first; with all angles 0 every link is turned as the base:
    *
@@ -53,7 +56,7 @@ const AXES: Readonly<Record<string, Vector3>> = {
  * said.
  */
 export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
-  const { id, name, home_deg, frames, unverified } = entry;
+  const { id, name, home_deg, frames, unverified, section } = entry;
   const { arm, baseFromVendorWorld } = armOfTable(name, entry.table);
   const robot = robotFromArm(arm, {
     id,
@@ -61,6 +64,7 @@ export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
     vendor,
     frames: { base: frames[0], tip: frames[1] },
     baseFromVendorWorld,
+    ...(section === undefined ? {} : { vendorSection: sectionOfData(section) }),
     ...(unverified === undefined ? {} : { unverified }),
     sources: {
       "lengths, limits, speeds": `${entry.repository} (${REPOSITORIES[entry.repository]!}), ${entry.path}.`,

@@ -90,6 +90,7 @@ world 0 0 0.37 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_lrmate_description/robot/lrmate200id4s.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.33 z -170 170 460
 J2 0 0 0 y -110 120 460
@@ -106,6 +107,7 @@ world 0 0 0.33 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_lrmate_description/robot/lrmate200id7l.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.33 z -180 180 370
 J2 0.05 0 0 y -100 145 310
@@ -122,6 +124,7 @@ world 0 0 0.33 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_m10_description/robot/m10_12_14d.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.45 z -185 185 260
 J2 0.075 0 0 y -90 145 240
@@ -138,6 +141,7 @@ world 0 0 0.45 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_m20_description/robot/m20_25_18d.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.425 z -185 185 210
 J2 0.075 0 0 y -100 160 210
@@ -154,6 +158,7 @@ world 0 0 0.425 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_m20_description/robot/m20_35_18d.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.425 z -185 185 180
 J2 0.075 0 0 y -100 160 180
@@ -170,6 +175,7 @@ world 0 0 0.425 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_m710_description/robot/m710ic_50.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.565 z -180 180 175
 J2 0.15 0 0 y -90 135 175
@@ -186,6 +192,7 @@ world 0 0 0.565 0 0 0`,
       frames: ["base_link", "fanuc_flange"],
       repository: "FANUC-CORPORATION/fanuc_description",
       path: "fanuc_m710_description/robot/m710ic_70.urdf.xacro",
+      section: { kind: "fanuc" },
       table: `
 J1 0 0 0.565 z -180 180 160
 J2 0.15 0 0 y -90 135 120

@@ -10,6 +10,7 @@ export const KAWASAKI: CatalogueMaker = {
       frames: ["base_link", "link6"],
       repository: "Kawasaki-Robotics/khi_robot",
       path: "khi_rs_description/urdf/rs007n.urdf.xacro",
+      section: { kind: "kawasaki" },
       table: `
 joint1 0 0 0.36 -z -180 180 470
 joint2 0 0 0 -x -135 135 380
@@ -25,6 +26,7 @@ flange 0 0 0 0 0 0`,
       frames: ["base_link", "link6"],
       repository: "Kawasaki-Robotics/khi_robot",
       path: "khi_rs_description/urdf/rs013n.urdf.xacro",
+      section: { kind: "kawasaki" },
       table: `
 joint1 0 0 0.505 -z -180 180 265
 joint2 0 0 0 -x -105 138 250
@@ -40,6 +42,7 @@ flange 0 0 0 0 0 0`,
       frames: ["base_link", "link6"],
       repository: "Kawasaki-Robotics/khi_robot",
       path: "khi_rs_description/urdf/rs020n.urdf.xacro",
+      section: { kind: "kawasaki" },
       table: `
 joint1 0 0 0.465 -z -180 180 190
 joint2 0 0.15 0 -x -105 155 205
@@ -55,6 +58,7 @@ flange 0 0 0 0 0 0`,
       frames: ["base_link", "link6"],
       repository: "Kawasaki-Robotics/khi_robot",
       path: "khi_rs_description/urdf/rs025n.urdf.xacro",
+      section: { kind: "kawasaki" },
       table: `
 joint1 0 0 0.58 -z -180 180 215
 joint2 0 0 0 -x -100 131 215
@@ -70,6 +74,7 @@ flange 0 0 0 0 0 0`,
       frames: ["base_link", "link6"],
       repository: "Kawasaki-Robotics/khi_robot",
       path: "khi_rs_description/urdf/rs080n.urdf.xacro",
+      section: { kind: "kawasaki" },
       table: `
 joint1 0 0 0.68 -z -180 180 180
 joint2 0 0.15 0 -x -105 140 180

@@ -10,6 +10,7 @@ export const KUKA: CatalogueMaker = {
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_agilus_support/urdf/kr4_r600.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.1494 -z -170 170 336
 joint_2 0 0.0636 0.1806 y -195 40 336
@@ -25,6 +26,7 @@ flange 0.0285 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_agilus_support/urdf/kr6_r700_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.208 -z -170 170 360
 joint_2 0.025 0.0907 0.192 y -190 45 300
@@ -40,6 +42,7 @@ flange 0.0285 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_agilus_support/urdf/kr10_r900_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.208 -z -170 170 300
 joint_2 0.025 0.0907 0.192 y -190 45 225
@@ -55,6 +58,7 @@ flange 0.0285 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_agilus_support/urdf/kr10_r1100_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.208 -z -170 170 300
 joint_2 0.025 0.0907 0.192 y -190 45 225
@@ -70,6 +74,7 @@ flange 0.0285 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_cybertech_support/urdf/kr16_r1610_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.3127 -z -185 185 200
 joint_2 0.16 0 0.2073 y -185 65 175
@@ -85,6 +90,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_cybertech_support/urdf/kr16_r2010_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0 -z -185 185 200
 joint_2 0.16 0 0.52 y -185 65 175
@@ -100,6 +106,7 @@ flange 0.153 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_cybertech_support/urdf/kr20_r1810_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.3127 -z -185 185 200
 joint_2 0.16 0 0.2073 y -185 65 171.6
@@ -115,6 +122,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_iontec_support/urdf/kr50_r2100.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.236 -z -185 185 180
 joint_2 0.175 -0.054 0.339 y -175 60 175
@@ -130,6 +138,7 @@ flange 0.036 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_iontec_support/urdf/kr70_r2100.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.236 -z -185 185 180
 joint_2 0.175 -0.054 0.339 y -175 60 157.9757
@@ -145,6 +154,7 @@ flange 0.036 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_quantec_support/urdf/kr120_r2700_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.3056 -z -185 185 116.8
 joint_2 0.33 -0.072 0.3394 y -140 -5 111.4518
@@ -160,6 +170,7 @@ flange 0.0485 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_quantec_support/urdf/kr210_r2700_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0 -z -185 185 116.8
 joint_2 0.33 0 0.645 y -140 -5 111.446
@@ -175,6 +186,7 @@ flange 0.215 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_quantec_support/urdf/kr210_r3100_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0 -z -185 185 105
 joint_2 0.33 0 0.645 y -140 -5 94
@@ -190,6 +202,7 @@ flange 0.24 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_fortec_support/urdf/kr240_r3330.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.4 -z -185 185 100
 joint_2 0.5 0 0.645 y -130 20 90.0289
@@ -205,6 +218,7 @@ flange 0 0 0 0 90 0`,
       frames: ["base_link", "tool0"],
       repository: "kroshu/kuka_robot_descriptions",
       path: "kuka_fortec_support/urdf/kr500_r2800_2.urdf.xacro",
+      section: { kind: "kuka" },
       table: `
 joint_1 0 0 0.3646 -z -185 185 100
 joint_2 0.5 -0.0755 0.4354 y -130 5 79.5447

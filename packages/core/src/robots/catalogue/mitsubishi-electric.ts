@@ -10,6 +10,7 @@ export const MITSUBISHI_ELECTRIC: CatalogueMaker = {
       frames: ["rv2fr_base", "rv2fr_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv2fr/rv2fr.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv2fr_joint_1 0 0 0 z -240 240 300
 rv2fr_joint_2 0 0 0.295 y -120 120 150
@@ -25,6 +26,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv4fr_base", "rv4fr_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv4fr/rv4fr.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv4fr_joint_1 0 0 0 z -240 240 450
 rv4fr_joint_2 0 0 0.35 y -120 120 450
@@ -40,6 +42,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv4frl_base", "rv4frl_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv4frl/rv4frl.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv4frl_joint_1 0 0 0 z -240 240 420
 rv4frl_joint_2 0 0 0.35 y -120 120 336
@@ -55,6 +58,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv7frl_base", "rv7frl_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv7frl/rv7frl.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv7frl_joint_1 0 0 0 z -240 240 288
 rv7frl_joint_2 0 0 0.4 y -110 130 321
@@ -70,6 +74,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv13frl_base", "rv13frl_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv13frl/rv13frl.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv13frl_joint_1 0 0 0 z -190 190 234
 rv13frl_joint_2 0.13 0 0.45 y -90 150 164
@@ -85,6 +90,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv8crl_base", "rv8crl_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv8crl/rv8crl.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv8crl_joint_1 0 0 0 z -170 170 288
 rv8crl_joint_2 0 0 0.39 y -110 110 321
@@ -100,6 +106,7 @@ flange 0 0 0 0 0 0`,
       frames: ["rv5as_base", "rv5as_default_tcp"],
       repository: "Mitsubishi-Electric-Asia/melfa_ros2_driver",
       path: "melfa_description/urdf/rv5as/rv5as.urdf",
+      section: { kind: "mitsubishi" },
       table: `
 rv5as_joint_1 0 0 0 z -240 240 124
 rv5as_joint_2 0 0 0.254 y -148 148 124

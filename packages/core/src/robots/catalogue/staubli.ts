@@ -10,6 +10,7 @@ export const STAUBLI: CatalogueMaker = {
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/staubli_experimental",
       path: "staubli_tx2_60_support/urdf/tx2_60.xacro",
+      section: { kind: "staubli-val3" },
       table: `
 joint_1 0 0 0.375 z -180 180 435
 joint_2 0 0 0 y -127.5 127.5 385
@@ -26,6 +27,7 @@ world 0 0 0.375 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/staubli_experimental",
       path: "staubli_tx2_60_support/urdf/tx2_60l.xacro",
+      section: { kind: "staubli-val3" },
       table: `
 joint_1 0 0 0.375 z -180 180 435
 joint_2 0 0 0 y -127.5 127.5 385
@@ -42,6 +44,7 @@ world 0 0 0.375 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/staubli_experimental",
       path: "staubli_tx2_90_support/urdf/tx2_90.xacro",
+      section: { kind: "staubli-val3" },
       table: `
 joint_1 0 0 0.478 z -180 180 265
 joint_2 0.05 0 0 y -130 147.5 210
@@ -58,6 +61,7 @@ world 0 0 0.478 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/staubli_experimental",
       path: "staubli_tx2_90_support/urdf/tx2_90l.xacro",
+      section: { kind: "staubli-val3" },
       table: `
 joint_1 0 0 0.478 z -180 180 225
 joint_2 0.05 0 0 y -130 147.5 180
@@ -74,6 +78,7 @@ world 0 0 0.478 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/staubli_experimental",
       path: "staubli_tx2_90_support/urdf/tx2_90xl.xacro",
+      section: { kind: "staubli-val3" },
       table: `
 joint_1 0 0 0.478 z -180 180 200
 joint_2 0.05 0 0 y -130 147.5 170

@@ -10,6 +10,7 @@ export const UNIVERSAL_ROBOTS: CatalogueMaker = {
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur3 name:=ur",
+      section: { kind: "universal-robots", model: "UR3" },
       table: `
 shoulder_pan_joint 0 0 0.1519 z -360 360 180
 shoulder_lift_joint 0 0 0 y -360 360 180
@@ -26,6 +27,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur3e name:=ur",
+      section: { kind: "universal-robots", model: "UR3" },
       table: `
 shoulder_pan_joint 0 0 0.15185 z -360 360 180
 shoulder_lift_joint 0 0 0 y -360 360 180
@@ -42,6 +44,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur5 name:=ur",
+      section: { kind: "universal-robots", model: "UR5" },
       table: `
 shoulder_pan_joint 0 0 0.089159 z -360 360 180
 shoulder_lift_joint 0 0 0 y -360 360 180
@@ -58,6 +61,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur5e name:=ur",
+      section: { kind: "universal-robots", model: "UR5" },
       table: `
 shoulder_pan_joint 0 0 0.1625 z -360 360 180
 shoulder_lift_joint 0 0 0 y -360 360 180
@@ -74,6 +78,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur10 name:=ur",
+      section: { kind: "universal-robots", model: "UR10" },
       table: `
 shoulder_pan_joint 0 0 0.1273 z -360 360 120
 shoulder_lift_joint 0 0 0 y -360 360 120
@@ -90,6 +95,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur16e name:=ur",
+      section: { kind: "universal-robots", model: "UR16" },
       table: `
 shoulder_pan_joint 0 0 0.1807 z -360 360 120
 shoulder_lift_joint 0 0 0 y -360 360 120
@@ -106,6 +112,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur20 name:=ur",
+      section: { kind: "universal-robots", model: "UR20" },
       table: `
 shoulder_pan_joint 0 0 0.2363 z -360 360 120
 shoulder_lift_joint 0 0 0 y -360 360 120
@@ -122,6 +129,7 @@ world 0 0 0 0 0 180`,
       frames: ["base_link", "tool0"],
       repository: "UniversalRobots/Universal_Robots_ROS2_Description",
       path: "urdf/ur.urdf.xacro ur_type:=ur30 name:=ur",
+      section: { kind: "universal-robots", model: "UR30" },
       table: `
 shoulder_pan_joint 0 0 0.2363 z -360 360 120
 shoulder_lift_joint 0 0 0 y -360 360 120

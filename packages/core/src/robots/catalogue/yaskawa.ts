@@ -26,6 +26,7 @@ world 0 0 0.103 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp4_support/urdf/gp4.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.33 z -170 170 465
 joint_2_l 0 0 0 y -110 130 465
@@ -42,6 +43,7 @@ world 0 0 0.33 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp7_support/urdf/gp7.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.33 z -170 170 375
 joint_2_l 0.04 0 0 y -65 145 315
@@ -58,6 +60,7 @@ world 0 0 0.33 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp12_support/urdf/gp12.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.45 z -170 170 259.865
 joint_2_l 0.155 0 0 y -90 155 229.9394
@@ -74,6 +77,7 @@ world 0 0 0.45 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp25_support/urdf/gp25.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.505 z -180 180 210
 joint_2_l 0.15 0 0 y -105 155 210
@@ -90,6 +94,7 @@ world 0 0 0.505 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp35l_support/urdf/gp35l.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.54 z -180 180 180
 joint_2_l 0.145 0 0 y -90 135 140
@@ -106,6 +111,7 @@ world 0 0 0.54 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp50_support/urdf/gp50.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.54 z -180 180 180
 joint_2_l 0.145 0 0 y -90 135 178
@@ -122,6 +128,7 @@ world 0 0 0.54 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp88_support/urdf/gp88.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.54 z -180 180 170
 joint_2_l 0.32 0 0 y -90 155 140
@@ -138,6 +145,7 @@ world 0 0 0.54 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp110_support/urdf/gp110.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.54 z -180 180 140
 joint_2_l 0.32 0 0 y -90 155 110
@@ -154,6 +162,7 @@ world 0 0 0.54 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_gp180_support/urdf/gp180.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.65 z -180 180 125
 joint_2_l 0.325 0 0 y -60 76 115
@@ -186,6 +195,7 @@ world 0 0 0.275 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_hc20_support/urdf/hc20.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.38 z -180 180 80
 joint_2_l 0 0 0 y -180 180 80
@@ -202,6 +212,7 @@ world 0 0 0.38 0 0 0`,
       frames: ["base_link", "tool0"],
       repository: "ros-industrial/motoman",
       path: "motoman_ar2010_support/urdf/ar2010.xacro",
+      section: { kind: "yaskawa" },
       table: `
 joint_1_s 0 0 0.505 z -180 180 210
 joint_2_l 0.15 0 0 y -105 155 210

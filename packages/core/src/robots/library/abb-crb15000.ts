@@ -3,6 +3,7 @@ import type { SerialArm } from "../../model/arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/abb_crb15000_5_95.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -33,6 +34,7 @@ export const abbCrb15000: Robot = {
   id: "abb_crb15000_5_95",
   name: "ABB GoFa CRB 15000-5/0.95",
   vendor: "ABB",
+  vendorSection: sectionOfData({ kind: "abb" }),
   arm,
   family: familyOf(arm),
   frames: { base: "base_link", tip: "tool0" },

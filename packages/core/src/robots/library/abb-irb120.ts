@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/abb_irb120.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -19,6 +20,7 @@ export const abbIrb120: Robot = {
   id: "abb_irb120",
   name: "ABB IRB 120-3/0.6",
   vendor: "ABB",
+  vendorSection: sectionOfData({ kind: "abb" }),
   arm: {
     name: "ABB IRB 120-3/0.6",
     joints: [

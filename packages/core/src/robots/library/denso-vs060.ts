@@ -1,5 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -16,6 +17,7 @@ export const densoVs060: Robot = {
   id: "denso_vs060",
   name: "Denso VS-060",
   vendor: "Denso",
+  vendorSection: sectionOfData({ kind: "denso" }),
   arm: {
     name: "Denso VS-060",
     joints: [

@@ -1,5 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -16,6 +17,7 @@ export const epsonC4A601s: Robot = {
   id: "epson_c4_a601s",
   name: "Epson C4-A601S",
   vendor: "Epson",
+  vendorSection: sectionOfData({ kind: "epson" }),
   arm: {
     name: "Epson C4-A601S",
     joints: [

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/fanuc_lrmate200id.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -22,6 +23,7 @@ export const fanucLrmate200id: Robot = {
   id: "fanuc_lrmate200id",
   name: "FANUC LR Mate 200iD",
   vendor: "FANUC",
+  vendorSection: sectionOfData({ kind: "fanuc" }),
   arm: {
     name: "FANUC LR Mate 200iD",
     joints: [

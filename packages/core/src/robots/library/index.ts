@@ -35,6 +35,21 @@ export const LIBRARY: readonly Robot[] = [
   lolaRl15,
 ];
 
+const own = new Map<string, Robot>();
+
 /** The robot of that id in the library or the catalogue, or undefined. */
-export const robotById = (id: string): Robot | undefined =>
+export const publishedRobot = (id: string): Robot | undefined =>
   LIBRARY.find(robot => robot.id === id) ?? catalogueRobot(id);
+
+/**
+ * Makes a robot from a file known to `robotById`, in the place of one of the same id. Whoever adds it has asked
+ * `falseIdentity` before: an id of the library stays with that arm.
+ */
+export const addOwnRobot = (robot: Robot): void => {
+  own.set(robot.id, robot);
+};
+
+/** The robot of that id: one that was added from a file, else that of the library or the catalogue, or undefined. */
+export const robotById = (id: string): Robot | undefined => own.get(id) ?? publishedRobot(id);
+/** Whether a robot was added from a file. */
+export const isOwnRobot = (robot: Robot): boolean => own.get(robot.id) === robot;

@@ -1,5 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -19,6 +20,7 @@ export const kawasakiRs007l: Robot = {
   id: "kawasaki_rs007l",
   name: "Kawasaki RS007L",
   vendor: "Kawasaki",
+  vendorSection: sectionOfData({ kind: "kawasaki" }),
   arm: {
     name: "Kawasaki RS007L",
     joints: [

@@ -1,5 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -17,6 +18,7 @@ export const kukaKr6p2: Robot = {
   id: "kuka_kr6_2",
   name: "KUKA KR 6/2",
   vendor: "KUKA",
+  vendorSection: sectionOfData({ kind: "kuka", model: "#KR6_2 H C4 FLR ZH02" }),
   arm: {
     name: "KUKA KR 6/2",
     joints: [

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/kuka_kr6r900sixx.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -19,6 +20,7 @@ export const kukaKr6R900: Robot = {
   id: "kuka_kr6r900sixx",
   name: "KUKA KR 6 R900 sixx",
   vendor: "KUKA",
+  vendorSection: sectionOfData({ kind: "kuka", model: "#KR6R900SIXX C2 FLR ZH100" }),
   arm: {
     name: "KUKA KR 6 R900 sixx",
     joints: [

@@ -1,5 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -16,6 +17,7 @@ export const mitsubishiRv7fl: Robot = {
   id: "mitsubishi_rv7fl",
   name: "Mitsubishi RV-7FL",
   vendor: "Mitsubishi Electric",
+  vendorSection: sectionOfData({ kind: "mitsubishi" }),
   arm: {
     name: "Mitsubishi RV-7FL",
     joints: [

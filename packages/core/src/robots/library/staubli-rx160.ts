@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/staubli_rx160.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -19,6 +20,7 @@ export const staubliRx160: Robot = {
   id: "staubli_rx160",
   name: "Stäubli RX160",
   vendor: "Stäubli",
+  vendorSection: sectionOfData({ kind: "staubli-val3" }),
   arm: {
     name: "Stäubli RX160",
     joints: [

@@ -1,3 +1,4 @@
+import { sectionOfData } from "../vendor-sections.ts";
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint } from "./write.ts";
@@ -7,6 +8,7 @@ export const staubliRx90l: Robot = {
   id: "staubli_rx90l",
   name: "Stäubli RX90L",
   vendor: "Stäubli",
+  vendorSection: sectionOfData({ kind: "staubli-v-plus" }),
   arm: {
     name: "Stäubli RX90L",
     joints: [

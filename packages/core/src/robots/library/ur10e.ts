@@ -3,6 +3,7 @@ import type { SerialArm } from "../../model/arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../../model/robot.ts";
 import { LINK_PROFILES } from "./forms/ur10e.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -47,6 +48,7 @@ export const ur10e: Robot = {
   id: "ur10e",
   name: "Universal Robots UR10e",
   vendor: "Universal Robots",
+  vendorSection: sectionOfData({ kind: "universal-robots", model: "UR10" }),
   arm,
   family: familyOf(arm),
   frames: { base: "base_link", tip: "tool0" },

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../../model/robot.ts";
 import { CASTINGS } from "./forms/yaskawa_gp8.ts";
+import { sectionOfData } from "../vendor-sections.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
@@ -19,6 +20,10 @@ export const yaskawaGp8: Robot = {
   id: "yaskawa_gp8",
   name: "Yaskawa GP8",
   vendor: "Yaskawa",
+  vendorSection: {
+    ...sectionOfData({ kind: "yaskawa" }),
+    pulses: { perRadian: [1340, 1340, 1340, 1000, 1000, 620].map(value => (value * 180) / Math.PI), source: "example" },
+  },
   arm: {
     name: "Yaskawa GP8",
     joints: [

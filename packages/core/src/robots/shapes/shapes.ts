@@ -31,6 +31,18 @@ export function linkDesigns(robot: Robot): LinkDesign[] {
 export const linkShapes = (robot: Robot): LinkShape[] =>
   linkDesigns(robot).map((design, link) => ({ link, name: linkName(link), parts: design.parts }));
 
+/** Made once for each robot: their trees of boxes are kept by the meshes. */
+const solidsOf = new WeakMap<Robot, readonly LinkSolid[]>();
+
 /** The coarse solids of a robot: closed, few triangles, and enclosing everything that is drawn. */
-export const linkSolids = (robot: Robot): LinkSolid[] =>
-  linkDesigns(robot).map((design, link) => ({ link, name: linkName(link), mesh: merge(design.shells) }));
+export function linkSolids(robot: Robot): readonly LinkSolid[] {
+  const known = solidsOf.get(robot);
+  if (known) return known;
+  const made = linkDesigns(robot).map((design, link) => ({
+    link,
+    name: linkName(link),
+    mesh: merge(design.shells),
+  }));
+  solidsOf.set(robot, made);
+  return made;
+}

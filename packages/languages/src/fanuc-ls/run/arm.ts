@@ -1,31 +1,8 @@
-import {
-  branchOf,
-  flangePose,
-  identity,
-  linkPoses,
-  solveAll,
-  type Branch,
-  type Pose,
-  type Robot,
-} from "@twincell/core";
+import { branchOf, flangePose, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
+import { ShownAxes, armPoints } from "../../parser/index.ts";
 import type { Config } from "../read/listing.ts";
 import { fromPose, inverted, times, toPose, type Matrix } from "./matrix.ts";
 
-/**
- * What the pendant of a robot shows: of the arm's joints in degrees, and from where it counts. The forearm is shown
- * against the horizon, so that joint 3 is what is shown and what joint 2 is bent forward besides. Positions count from
- * where the axes of joints 1 and 2 would meet.
- */
-interface Pendant {
-  readonly forearmFollows: boolean;
-  readonly zero_mm: readonly [number, number, number];
-}
-const PENDANTS: Readonly<Record<string, Pendant>> = {
-  fanuc_lrmate200id: { forearmFollows: true, zero_mm: [0, 0, 330] },
-};
-export const hasPendant = (robot: Robot): boolean => Object.hasOwn(PENDANTS, robot.id);
-
-const DEG = 180 / Math.PI;
 /** This close to a border of a flag either letter is right. */
 const BORDER_MM = 0.01;
 const BORDER_DEG = 0.001;
@@ -33,7 +10,7 @@ const BORDER_DEG = 0.001;
 /** Where the arm is sent. */
 export class ControllerArm {
   readonly robot: Robot;
-  private readonly pendant: Pendant;
+  private readonly axes: ShownAxes;
   private readonly baseFromWorld: Matrix;
   private readonly cellFromController: Matrix;
   joints_rad: readonly number[] | undefined;
@@ -43,15 +20,8 @@ export class ControllerArm {
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
-    this.pendant = PENDANTS[robot.id]!;
-    this.baseFromWorld = {
-      mm: this.pendant.zero_mm,
-      rows: [
-        [1, 0, 0],
-        [0, 1, 0],
-        [0, 0, 1],
-      ],
-    };
+    this.axes = ShownAxes.of(robot, "fanuc-ls")!;
+    this.baseFromWorld = fromPose(robot.baseFromVendorWorld);
     this.cellFromController = times(fromPose(worldFromBase), this.baseFromWorld);
     this.joints_rad = robot.home_rad;
   }
@@ -76,17 +46,14 @@ export class ControllerArm {
 
   atShown(shown_deg: readonly number[]): readonly number[] {
     this.isLost = false;
-    const own = shown_deg.map(
-      (angle, i) => (i === 2 && this.pendant.forearmFollows ? angle + shown_deg[1]! : angle) / DEG,
-    );
+    const own = this.axes.radians(shown_deg);
     this.joints_rad = own;
     this.known = undefined;
     return own;
   }
 
   shown(): readonly number[] {
-    const own = (this.joints_rad ?? this.robot.home_rad).map(angle => angle * DEG);
-    return own.map((angle, i) => (i === 2 && this.pendant.forearmFollows ? angle - own[1]! : angle));
+    return this.axes.degrees(this.joints_rad ?? this.robot.home_rad);
   }
 
   /**
@@ -114,7 +81,8 @@ export class ControllerArm {
     const all = reach.solutions.map(({ q_rad }) => [...q_rad]);
     const fitting = config === undefined ? all : all.filter(q => this.hasFlags(q, config));
     const nearest = fitting[0] ?? all[0]!;
-    const exact = config === undefined ? nearest : (fitting.find(q => hasTurns(q, config)) ?? nearest);
+    const exact =
+      config === undefined ? nearest : (fitting.find(q => hasTurns(this.axes.degrees(q), config)) ?? nearest);
     this.joints_rad = exact;
     return { branch: branchOf(robot, exact), q: exact, turned: exact !== nearest, fits: fitting.length > 0 };
   }
@@ -124,26 +92,15 @@ export class ControllerArm {
    * zero.
    */
   hasFlags(q: readonly number[], { flip, up, toward }: Config): boolean {
-    const links = Array.from({ length: 7 }, () => identity<"base", "link">());
-    linkPoses(this.robot.arm, q, links);
-    const c = Math.cos(q[0]!);
-    const s = Math.sin(q[0]!);
-    const plane = (i: number): readonly [number, number] => {
-      const [x, y, z] = links[i]!.position;
-      return [(x * c + y * s) * 1000, z * 1000];
-    };
-    const shoulder = plane(2);
-    const elbow = plane(3);
-    const wrist = plane(5);
-    const ahead = wrist[0] >= 0;
-    const above =
-      (((wrist[0] - shoulder[0]) * (elbow[1] - shoulder[1]) - (wrist[1] - shoulder[1]) * (elbow[0] - shoulder[0])) /
-        Math.hypot(wrist[0] - shoulder[0], wrist[1] - shoulder[1])) *
-      (ahead ? 1 : -1);
-    const bend = q[4]! * DEG;
+    const { shoulder, wrist, ahead_m, folded } = armPoints(this.robot, this.axes, q);
+    const ahead_mm = 1000 * ahead_m;
+    // How far the elbow is from the line between axis 2 and the wrist, above it as the arm faces.
+    const apart_m = Math.hypot(wrist[0] - shoulder[0], wrist[1] - shoulder[1], wrist[2] - shoulder[2]);
+    const above_mm = ((1000 * folded) / apart_m) * (ahead_m >= 0 ? 1 : -1);
+    const bend = this.axes.degrees(q)[4]!;
     return (
-      (Math.abs(wrist[0]) < BORDER_MM || ahead === toward) &&
-      (Math.abs(above) < BORDER_MM || above > 0 === up) &&
+      (Math.abs(ahead_mm) < BORDER_MM || ahead_mm >= 0 === toward) &&
+      (Math.abs(above_mm) < BORDER_MM || above_mm > 0 === up) &&
       (Math.abs(bend) < BORDER_DEG || bend > 0 === flip)
     );
   }
@@ -159,9 +116,8 @@ export class ControllerArm {
 }
 
 /** Turn 0 is within half a turn of zero, 1 and −1 the turns beside it; near a border either is right. */
-const hasTurns = (q: readonly number[], { turns }: Config): boolean =>
-  [q[0]!, q[3]!, q[5]!].every((angle, i) => {
+const hasTurns = (axes_deg: readonly number[], { turns }: Config): boolean =>
+  [axes_deg[0]!, axes_deg[3]!, axes_deg[5]!].every((deg, i) => {
     const from = turns[i]! * 360 - 180;
-    const deg = angle * DEG;
     return deg >= from - 2 * BORDER_DEG && deg <= from + 360 + 2 * BORDER_DEG;
   });

@@ -1,5 +1,13 @@
-import { branchOf, degrees, toFanucWpr, type Pose, type Robot } from "@twincell/core";
-import type { PendantConvention } from "../robots.ts";
+import {
+  branchOf,
+  degrees,
+  toFanucWpr,
+  type Pose,
+  type Robot,
+  type VendorSection,
+  wristAboveZero,
+} from "@twincell/core";
+import { shownAxes } from "../../emitter/index.ts";
 
 /** What a listing holds of a length in mm or an angle in degrees. */
 const DECIMALS = 3;
@@ -28,20 +36,22 @@ export function xyzwpr({ position, quaternion }: Pose): readonly [string, string
 }
 
 /**
- * Joint angles as the pendant shows them. J3 counts from the J2 that is shown, so that the arm's own angle is as fine
- * as the others.
+ * Joint angles as the pendant shows them. An axis that is shown with another counts from what is written of that one,
+ * so that the arm's own angle is as fine as the others.
  */
-export function pendantJoints(q_rad: ArrayLike<number>, { coupling }: PendantConvention): readonly string[] {
-  const own = Array.from(q_rad, degrees);
-  const second = shown(own[1]!);
-  return own.map((angle, i) => shown(i === 2 ? angle - coupling * Number(second) : angle));
+export function pendantJoints(q_rad: ArrayLike<number>, section: VendorSection): readonly string[] {
+  const alone = section.axes.map(({ sign, zero_deg }, i) => sign * degrees(q_rad[i]!) + zero_deg);
+  const written = alone.map(angle => Number(shown(angle)));
+  for (const { axis, with: other, factor } of section.couplings ?? []) alone[axis - 1]! += factor * written[other - 1]!;
+  return alone.map(shown);
 }
 
 /** Wrist, elbow, shoulder, and the whole turns of axes 1, 4 and 6: 0 within half a turn of zero. */
-export function configOf(robot: Robot, q_rad: ArrayLike<number>): string {
+export function configOf(robot: Robot, section: VendorSection, q_rad: ArrayLike<number>): string {
   const branch = branchOf(robot, q_rad);
-  const turn = (joint: number): number => Math.floor((Number(shown(degrees(q_rad[joint]!))) + 180) / 360);
-  const flags = `${branch?.wrist === "negative" ? "F" : "N"} ${branch?.elbow === "down" ? "D" : "U"} ${branch?.shoulder === "back" ? "B" : "T"}`;
+  const axes = shownAxes(section, q_rad);
+  const turn = (joint: number): number => Math.floor((Number(shown(axes[joint]!)) + 180) / 360);
+  const flags = `${branch?.wrist === wristAboveZero(robot) ? "F" : "N"} ${branch?.elbow === "down" ? "D" : "U"} ${branch?.shoulder === "back" ? "B" : "T"}`;
   return `${flags}, ${turn(0)}, ${turn(3)}, ${turn(5)}`;
 }
 

@@ -14,6 +14,7 @@ import {
   type Step,
   type Target,
   type Vector3,
+  type VendorSection,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -28,7 +29,7 @@ import {
   pitchTerm,
   type Place,
 } from "../../emitter/index.ts";
-import { GRIPPER_OUTPUT, type PendantConvention } from "../robots.ts";
+import { GRIPPER_OUTPUT } from "../robots.ts";
 import { Listing } from "./listing.ts";
 import { configOf, pendantJoints, xyzwpr, type Position } from "./positions.ts";
 import { Registers } from "./registers.ts";
@@ -63,7 +64,7 @@ interface VisitedPallet {
  */
 export class ProgramWriter extends StepWriter {
   readonly warnings = new Set<string>();
-  private readonly convention: PendantConvention;
+  private readonly convention: VendorSection;
   private readonly fastest_mmps: number;
   private readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "P_", foldsCase: true });
   private readonly registers: Registers;
@@ -72,7 +73,7 @@ export class ProgramWriter extends StepWriter {
   private tool: number | undefined;
   private frame: number | undefined;
 
-  constructor(place: Place, convention: PendantConvention, fastest_mmps: number) {
+  constructor(place: Place, convention: VendorSection, fastest_mmps: number) {
     super(place);
     this.convention = convention;
     this.fastest_mmps = fastest_mmps;
@@ -356,7 +357,7 @@ export class ProgramWriter extends StepWriter {
         `J ${record(pendantJoints(target.q, this.convention))} ${this.percent(step)} ${options}`,
         id,
       );
-    const config = configOf(this.place.robot, configuration ?? this.place.robot.home_rad);
+    const config = configOf(this.place.robot, this.convention, configuration ?? this.place.robot.home_rad);
     const goal = record(xyzwpr(this.inFrame(target, frame)), config);
     const search = this.search(step);
     if (path === "ptp") this.out.motion(`J ${goal} ${this.percent(step)} ${options}${search}`, id);

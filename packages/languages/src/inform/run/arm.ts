@@ -1,13 +1,5 @@
 import { allBranches, fromMatrix, type Pose, type Robot } from "@twincell/core";
-
-/** What the controller of a robot shows, written from its own description without a look at the writer's table. */
-interface Display {
-  readonly atZero_deg: readonly number[];
-  readonly senses: readonly (1 | -1)[];
-}
-const DISPLAYS: Readonly<Record<string, Display>> = {
-  yaskawa_gp8: { atZero_deg: [0, 0, 0, 0, 0, 0], senses: [1, 1, 1, 1, 1, 1] },
-};
+import { ShownAxes } from "../../parser/index.ts";
 
 const DEG = 180 / Math.PI;
 /** What the rounding of a written position may add to an axis at its limit. */
@@ -21,25 +13,25 @@ export const BORDERS = { exact: { deg: 1e-3, m: 1e-6 }, written: { deg: 0.5, m: 
 /** The axes S, L, U, R, B, T of a robot as its controller shows them, and the manipulator types of a posture. */
 export class Arm {
   private readonly robot: Robot;
-  private readonly display: Display;
+  private readonly shown: ShownAxes;
 
-  private constructor(robot: Robot, display: Display) {
+  private constructor(robot: Robot, shown: ShownAxes) {
     this.robot = robot;
-    this.display = display;
+    this.shown = shown;
   }
 
   /** Undefined for a robot whose axes are not known here. */
   static of(robot: Robot): Arm | undefined {
-    const display = Object.hasOwn(DISPLAYS, robot.id) ? DISPLAYS[robot.id] : undefined;
-    return display === undefined ? undefined : new Arm(robot, display);
+    const shown = ShownAxes.of(robot, "inform");
+    return shown === undefined ? undefined : new Arm(robot, shown);
   }
 
   radians(axes_deg: readonly number[]): number[] {
-    return axes_deg.map((value, i) => (this.display.senses[i]! * (value - this.display.atZero_deg[i]!)) / DEG);
+    return this.shown.radians(axes_deg);
   }
 
   degrees(q_rad: ArrayLike<number>): number[] {
-    return Array.from(q_rad, (q, i) => this.display.atZero_deg[i]! + this.display.senses[i]! * q * DEG);
+    return this.shown.degrees(q_rad);
   }
 
   /** Axis values that reach a pose within the limits, every turn of every axis, nearest first. */

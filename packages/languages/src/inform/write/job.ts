@@ -9,8 +9,9 @@ import {
   type SetStep,
   type Step,
   type Target,
+  type VendorSection,
 } from "@twincell/core";
-import type { AxisConvention, PulseData } from "../robots.ts";
+import type { PulseData } from "../pulses.ts";
 import type { Controller } from "./controller.ts";
 import { fixed } from "./location.ts";
 import { commentText, titleText } from "./names.ts";
@@ -27,7 +28,7 @@ const DATE = "2000/01/01 00:00";
 export interface JobSetting {
   readonly place: WalkedPlace;
   readonly controller: Controller;
-  readonly convention: AxisConvention;
+  readonly convention: VendorSection;
   readonly pulses: PulseData | undefined;
   readonly postures: ConfigurationMap;
   /** Names of the jobs that routines became. */

@@ -1,14 +1,4 @@
-import {
-  branchOf,
-  degrees,
-  millimetres,
-  pose,
-  toYaskawaRxyz,
-  fromYaskawaRxyz,
-  type Pose,
-  type Robot,
-} from "@twincell/core";
-import type { AxisConvention } from "../robots.ts";
+import { branchOf, millimetres, pose, toYaskawaRxyz, fromYaskawaRxyz, type Pose, type Robot } from "@twincell/core";
 
 /** A number with a fixed count of decimals and no minus before zero. */
 export const fixed = (value: number, decimals: number): string => {
@@ -29,9 +19,6 @@ export function rectanPose<Into extends string, From extends string>(text: strin
   const [x, y, z, rx, ry, rz] = text.split(",").map(Number);
   return pose([x! / 1000, y! / 1000, z! / 1000], fromYaskawaRxyz(rx!, ry!, rz!));
 }
-
-export const axisValues = (q_rad: ArrayLike<number>, { signs, offsets_deg }: AxisConvention): number[] =>
-  Array.from(q_rad, (q, i) => signs[i]! * degrees(q) + offsets_deg[i]!);
 
 export const pulseText = (axes_deg: readonly number[], pulsesPerDegree: readonly number[]): string =>
   axes_deg.map((value, i) => fixed(Math.round(value * pulsesPerDegree[i]!), 0)).join(",");

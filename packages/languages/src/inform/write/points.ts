@@ -7,11 +7,12 @@ import {
   type Pose,
   type Robot,
   type Target,
+  type VendorSection,
 } from "@twincell/core";
-import type { AxisConvention, PulseData } from "../robots.ts";
+import type { PulseData } from "../pulses.ts";
 import type { Controller } from "./controller.ts";
-import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
+import { pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
+import { shownAxes, type WalkedPlace } from "../../emitter/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Where the robot is after a motion, as the text says it: what arcs and curves begin with once more. */
@@ -27,7 +28,7 @@ export class Points {
   count = 0;
   private readonly place: WalkedPlace;
   private readonly controller: Controller;
-  private readonly convention: AxisConvention;
+  private readonly convention: VendorSection;
   private readonly pulses: PulseData | undefined;
   private readonly robot: Robot;
   private user = "";
@@ -35,7 +36,7 @@ export class Points {
   private type = "";
   private rconf = "";
 
-  constructor(place: WalkedPlace, controller: Controller, convention: AxisConvention, pulses: PulseData | undefined) {
+  constructor(place: WalkedPlace, controller: Controller, convention: VendorSection, pulses: PulseData | undefined) {
     this.place = place;
     this.robot = place.robot;
     this.controller = controller;
@@ -125,13 +126,13 @@ export class Points {
 
   private pulsePoint(id: string, tool: string, q_rad: ArrayLike<number>): string {
     this.settings("", tool, "PULSE");
-    return this.point(id, pulseText(axisValues(q_rad, this.convention), this.pulses!.pulsesPerDegree));
+    return this.point(id, pulseText(shownAxes(this.convention, q_rad), this.pulses!.pulsesPerDegree));
   }
 
   private rectanPoint(id: string, frame: string, tool: string, text: string, q_rad: ArrayLike<number>): string {
     this.settings(frame === "world" ? "" : frame, tool, frame === "world" ? "BASE" : "USER");
     const rounded_rad = this.reachedByText(frame, tool, text, q_rad);
-    const rconf = rconfText(this.robot, rounded_rad, axisValues(rounded_rad, this.convention));
+    const rconf = rconfText(this.robot, rounded_rad, shownAxes(this.convention, rounded_rad));
     if (rconf !== this.rconf) this.out.add(`///RCONF ${rconf}`);
     this.rconf = rconf;
     return this.point(id, text);

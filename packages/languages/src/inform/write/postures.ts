@@ -1,7 +1,14 @@
-import type { MoveStep } from "@twincell/core";
-import { called, outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../emitter/index.ts";
-import type { AxisConvention } from "../robots.ts";
-import { axisValues, rconfText } from "./location.ts";
+import type { MoveStep, VendorSection } from "@twincell/core";
+import {
+  called,
+  outsideLimits,
+  reached,
+  walkMoves,
+  type Cannot,
+  type WalkedPlace,
+  shownAxes,
+} from "../../emitter/index.ts";
+import { rconfText } from "./location.ts";
 
 /** The joint angles in which a point is reached first, and the point on the way to it. */
 export interface Posture {
@@ -19,9 +26,9 @@ export type Configurations = { readonly kind: "postures"; readonly of: Configura
  *
  * @param inPulses  points on the way of arcs are written as joint angles too, so they must be reached.
  */
-export function configurationsOf(place: WalkedPlace, convention: AxisConvention, inPulses: boolean): Configurations {
+export function configurationsOf(place: WalkedPlace, convention: VendorSection, inPulses: boolean): Configurations {
   const found = new Map<string, Posture>();
-  const typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, axisValues(q_rad, convention));
+  const typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, shownAxes(convention, q_rad));
   const flaw = walkMoves(place, (step: MoveStep, near) => {
     const via =
       step.via === undefined || !inPulses

@@ -9,6 +9,7 @@ import {
   type Pose,
   type Robot,
 } from "@twincell/core";
+import { ShownAxes, armPoints } from "../../parser/index.ts";
 import { NULL, fromPose, inverted, times, toPose, type Matrix } from "./frame.ts";
 
 /** Words that name a posture of the next joint motion. */
@@ -17,19 +18,6 @@ export interface Posture {
   readonly elbow?: "above" | "below";
   readonly wrist?: "uwrist" | "dwrist";
 }
-
-/**
- * What the controller knows of its arm: JT2 leans the upper arm forwards by its value, JT3 takes the forearm back from
- * it.
- */
-interface Lengths {
-  readonly upper_mm: number;
-  readonly fore_mm: number;
-}
-const LENGTHS: Readonly<Record<string, Lengths>> = { kawasaki_rs007l: { upper_mm: 455, fore_mm: 475 } };
-export const speaksAs = (robot: Robot): boolean => Object.hasOwn(LENGTHS, robot.id);
-
-const DEG = Math.PI / 180;
 
 /** Where the arm is sent, and what the controller works out about it. Places count from the base of the robot. */
 export class ControllerArm {
@@ -40,10 +28,12 @@ export class ControllerArm {
   /** The last joint angles that were known [rad]. */
   private near: readonly number[];
   private flange: Matrix;
+  readonly axes: ShownAxes;
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
     this.worldFromBase = fromPose(worldFromBase);
+    this.axes = ShownAxes.of(robot, "kawasaki-as")!;
     this.near = robot.home_rad;
     this.flange = fromPose(flangePose(robot.arm, robot.home_rad));
   }
@@ -53,14 +43,14 @@ export class ControllerArm {
     return times(inverted(this.base), times(this.flange, this.tool));
   }
   placeOf(deg: readonly number[]): Matrix {
-    return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, radians(deg))), this.tool));
+    return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, this.axes.radians(deg))), this.tool));
   }
   inWorld<Into extends string, From extends string>(place: Matrix): Pose<Into, From> {
     return toPose(times(this.worldFromBase, this.base === NULL ? place : times(this.base, place)));
   }
 
   atJoints(deg: readonly number[]): void {
-    this.near = radians(deg);
+    this.near = this.axes.radians(deg);
     this.flange = fromPose(flangePose(this.robot.arm, this.near));
   }
 
@@ -98,16 +88,12 @@ export class ControllerArm {
   /**
    * RIGHTY: the wrist is in front of the axis of JT1. ABOVE: the elbow is above the line from shoulder to wrist.
    * UWRIST: JT5 > 0.
-   *
-   *   reach = upper · sin JT2 + fore · sin(JT2 − JT3)
    */
   private fits(q: ArrayLike<number>, { arm, elbow, wrist }: Posture): boolean {
-    const { upper_mm, fore_mm } = LENGTHS[this.robot.id]!;
-    const jt2 = q[1]!;
-    const jt3 = q[2]!;
-    const jt5 = q[4]!;
-    const isFront = upper_mm * Math.sin(jt2) + fore_mm * Math.sin(jt2 - jt3) >= 0;
-    const isAbove = isFront === jt3 < 0;
+    const { ahead_m, folded } = armPoints(this.robot, this.axes, q);
+    const jt5 = this.axes.degrees(q)[4]!;
+    const isFront = ahead_m >= 0;
+    const isAbove = isFront === folded > 0;
     return (
       (arm === undefined || (arm === "righty") === isFront) &&
       (elbow === undefined || (elbow === "above") === isAbove) &&
@@ -126,5 +112,3 @@ export class ControllerArm {
     };
   }
 }
-
-export const radians = (deg: readonly number[]): number[] => deg.map(angle => angle * DEG);

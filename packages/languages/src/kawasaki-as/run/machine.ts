@@ -14,13 +14,11 @@ import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
-import { ControllerArm, radians, type Posture } from "./arm.ts";
+import { ControllerArm, type Posture } from "./arm.ts";
 import { NULL, inverted, shifted, times, toPose, trans, type Matrix } from "./frame.ts";
 import { FUNCTIONS, numbersOf } from "./functions.ts";
 import { holds, lineAt } from "./lines.ts";
 import { asNumber, asPlace, binary, kindOf, truth, type PlaceValue, type Value } from "./values.ts";
-
-export { speaksAs } from "./arm.ts";
 
 /** A setting that holds until it is said anew, and one that holds for the next motion alone. */
 interface Setting<T> {
@@ -564,7 +562,7 @@ export class Machine extends BlockMachine<Value> {
         `${kindOf(goal).replace(/^./, letter => letter.toUpperCase())} is no place to move to.`,
       );
     if (goal.kind === "joints")
-      return { q: radians(goal.deg), ...(configuration !== undefined && !this.hasTool ? {} : { tool }) };
+      return { q: this.arm.axes.radians(goal.deg), ...(configuration !== undefined && !this.hasTool ? {} : { tool }) };
     if (configuration === undefined || Object.keys(configuration).length === 0) return { ...this.poseOf(goal), tool };
     const branch = this.arm.branchAt(goal.at, configuration);
     if (branch === undefined)

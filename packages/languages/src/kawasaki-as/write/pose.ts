@@ -27,8 +27,9 @@ export function oatText([x, y, z, w]: Pose["quaternion"]): string {
 /** TRANS(x, y, z, o, a, t): mm and degrees. */
 export const transText = ({ position, quaternion }: Pose): string =>
   `TRANS(${position.map(mm).join(",")},${oatText(quaternion)})`;
-/** #[jt1, …]: degrees. */
-export const jointsText = (q_rad: readonly number[]): string => `#[${q_rad.map(deg).join(",")}]`;
+/** #[jt1, …]: axis values as the controller shows them [°]. */
+export const jointsText = (axes_deg: readonly number[]): string =>
+  `#[${axes_deg.map(value => fixed(value, DEG_DECIMALS)).join(",")}]`;
 
 function turnText(angle_rad: number): string {
   const text = deg(angle_rad - 2 * Math.PI * Math.round(angle_rad / (2 * Math.PI)));

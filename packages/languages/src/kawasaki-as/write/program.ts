@@ -12,6 +12,8 @@ import {
   type Robot,
   type Step,
   type Target,
+  type VendorSection,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -23,8 +25,9 @@ import {
   patternOf,
   pitchTerm,
   type Pattern,
+  shownAxes,
 } from "../../emitter/index.ts";
-import { LINES, type SupportedRobot } from "../robots.ts";
+import { LINES } from "../robots.ts";
 import { jointsText, mm, num, oatText, transText } from "./pose.ts";
 import { RESERVED } from "./reserved.ts";
 import { usedNames } from "./used.ts";
@@ -35,7 +38,7 @@ const LONGEST_NAME = 15;
 /** The file: one program and those that it calls; says only what changes from one step to the next. */
 export class ProgramWriter extends BlockStepWriter {
   private readonly robot: Robot;
-  private readonly spoken: SupportedRobot;
+  private readonly section: VendorSection;
   private readonly names = new Names({ most: LONGEST_NAME - 1, reserved: RESERVED, first: "p_", foldsCase: true });
   private readonly saysAcceleration: boolean;
   private tool = "";
@@ -43,10 +46,10 @@ export class ProgramWriter extends BlockStepWriter {
   private accuracy = "";
   private acceleration = "";
 
-  constructor(place: Place, spoken: SupportedRobot) {
+  constructor(place: Place, section: VendorSection) {
     super(place);
     this.robot = place.robot;
-    this.spoken = spoken;
+    this.section = section;
     this.saysAcceleration = usedNames(place.program).accelerates;
   }
 
@@ -315,7 +318,7 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private goal(target: Target): string {
-    if ("q" in target) return jointsText(target.q);
+    if ("q" in target) return jointsText(shownAxes(this.section, target.q));
     if (target.frame === "world")
       return transText(compose(inverse(this.place.worldFromBase), compose(identity<"world", "frame">(), target.pose)));
     return `${this.named("frame", target.frame)}+${transText(target.pose)}`;
@@ -328,7 +331,7 @@ export class ProgramWriter extends BlockStepWriter {
     return [
       named.shoulder === "front" ? "RIGHTY" : "LEFTY",
       named.elbow === "up" ? "ABOVE" : "BELOW",
-      named.wrist === this.spoken.upWrist ? "UWRIST" : "DWRIST",
+      named.wrist === wristAboveZero(this.place.robot) ? "UWRIST" : "DWRIST",
     ];
   }
 }

@@ -1,20 +1,5 @@
 import { allBranches, type Pose, type Robot } from "@twincell/core";
-
-/**
- * What the controller of a robot shows: A_i = shown at the library's zero + sense · angle. Written from the machine
- * data, without a look at the writer's table, so that a fault in either is seen.
- */
-interface Display {
-  readonly atZero_deg: readonly number[];
-  readonly senses: readonly (1 | -1)[];
-}
-
-/**
- * The library turns KUKA's axes by the left hand where KUKA does, and counts from KUKA's zero: arm and forearm level in
- * front.
- */
-const LEVEL: Display = { atZero_deg: [0, 0, 0, 0, 0, 0], senses: [1, 1, 1, 1, 1, 1] };
-const DISPLAYS: Readonly<Record<string, Display>> = { kuka_kr6r900sixx: LEVEL, kuka_kr6_2: LEVEL };
+import { ShownAxes } from "../../parser/index.ts";
 
 const DEG = 180 / Math.PI;
 /** What the rounding of a written position may add to an axis at its limit. */
@@ -30,27 +15,27 @@ export const STATUS_SLACK = { exact: 1e-6, written: 1e-3 } as const;
 /** Axis values of a robot as its controller shows them, and what Status and Turn say of them. */
 export class Axes {
   private readonly robot: Robot;
-  private readonly display: Display;
+  private readonly shown: ShownAxes;
   readonly count: number;
 
-  private constructor(robot: Robot, display: Display) {
+  private constructor(robot: Robot, shown: ShownAxes) {
     this.robot = robot;
-    this.display = display;
+    this.shown = shown;
     this.count = robot.arm.joints.length;
   }
 
   /** Undefined for a robot whose axes are not known here. */
   static of(robot: Robot): Axes | undefined {
-    const display = DISPLAYS[robot.id];
-    return display === undefined ? undefined : new Axes(robot, display);
+    const shown = ShownAxes.of(robot, "krl");
+    return shown === undefined ? undefined : new Axes(robot, shown);
   }
 
   radians(axes_deg: readonly number[]): number[] {
-    return axes_deg.map((value, i) => ((value - this.display.atZero_deg[i]!) * this.display.senses[i]!) / DEG);
+    return this.shown.radians(axes_deg);
   }
 
   degrees(q_rad: ArrayLike<number>): number[] {
-    return Array.from(q_rad, (q, i) => this.display.atZero_deg[i]! + this.display.senses[i]! * q * DEG);
+    return this.shown.degrees(q_rad);
   }
 
   /** Axis values that reach a pose within the limits, every turn of every axis. */

@@ -1,7 +1,5 @@
-import { branchOf, type MoveStep } from "@twincell/core";
-import { outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../emitter/index.ts";
-import type { AxisConvention } from "../robots.ts";
-import { axisValues } from "./location.ts";
+import { branchOf, type MoveStep, type VendorSection, wristAboveZero } from "@twincell/core";
+import { outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace, shownAxes } from "../../emitter/index.ts";
 import { statusOf, turnOf } from "./status.ts";
 
 /** What Status and Turn of a point are; undefined where they differ from one visit to the next. */
@@ -18,7 +16,7 @@ export type Configurations = { readonly kind: "postures"; readonly of: Configura
  * pose with least travel from the point before, in the order of execution. Stops at the first point that cannot be
  * reached or lies outside the limits.
  */
-export function configurationsOf(place: WalkedPlace, convention: AxisConvention): Configurations {
+export function configurationsOf(place: WalkedPlace, convention: VendorSection): Configurations {
   const found = new Map<string, Posture>();
   const { robot } = place;
   const flaw = walkMoves(place, (step: MoveStep, near) => {
@@ -29,8 +27,8 @@ export function configurationsOf(place: WalkedPlace, convention: AxisConvention)
     const outside = outsideLimits(place, step, q_rad, axis => `${axis + 1}`);
     if (outside !== undefined) return outside;
     const branch = branchOf(robot, q_rad);
-    const status = branch === undefined ? 0 : statusOf(branch);
-    const turn = turnOf(axisValues(q_rad, convention));
+    const status = branch === undefined ? 0 : statusOf(branch, wristAboveZero(robot));
+    const turn = turnOf(shownAxes(convention, q_rad));
     const before = found.get(id);
     if (before === undefined) found.set(id, { status, turn });
     else if (before.turn !== turn || before.status !== status)

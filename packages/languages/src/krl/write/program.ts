@@ -12,9 +12,9 @@ import {
   type SetStep,
   type Step,
   type Target,
+  type VendorSection,
 } from "@twincell/core";
 import { asciiText, singleText } from "../../parser/index.ts";
-import type { AxisConvention } from "../robots.ts";
 import { DataList } from "./data.ts";
 import { principal } from "./inertia.ts";
 import { axisText, frameText, lengthText } from "./location.ts";
@@ -42,7 +42,7 @@ export class ModuleWriter {
   readonly data = new DataList();
   private readonly program: Program;
   private readonly place: WalkedPlace;
-  private readonly convention: AxisConvention;
+  private readonly convention: VendorSection;
   private readonly postures: ConfigurationMap;
   private readonly name: string;
   private readonly gripper: number;
@@ -57,7 +57,7 @@ export class ModuleWriter {
   private searches = 0;
   private isMain = true;
 
-  constructor(place: WalkedPlace, convention: AxisConvention, configurations: ConfigurationMap, gripper: number) {
+  constructor(place: WalkedPlace, convention: VendorSection, configurations: ConfigurationMap, gripper: number) {
     this.program = place.program;
     this.place = place;
     this.convention = convention;

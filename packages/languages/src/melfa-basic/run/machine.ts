@@ -16,23 +16,12 @@ import {
   type Rigid,
   type Six,
   type RunContext,
-  type Upright,
   type Value,
 } from "../../parser/basic/index.ts";
 import type { Do, Expression } from "../../parser/structured/index.ts";
 
-/** All joints 0 stands straight up; joint 2 leans forwards, joint 3 folds forwards. */
-const ARMS: Readonly<Record<string, Upright>> = {
-  mitsubishi_rv7fl: {
-    ahead_mm: 0,
-    upper_mm: 435,
-    fore_mm: 470,
-    offset_mm: -50,
-    lean: ([, j2]) => j2!,
-    fold: ([, , j3]) => j3!,
-  },
-};
-export const hasMelfa = (id: string): boolean => Object.hasOwn(ARMS, id);
+/** Joint 2 leans forwards as it grows, as the maker counts. */
+const LEANS_FORWARD = 1;
 
 interface Said {
   readonly speed: Speed;
@@ -62,7 +51,7 @@ export class MelfaMachine extends BasicMachine<Said> {
   protected readonly truth = 1;
 
   constructor(stage: RunContext) {
-    super(stage, ARMS[stage.robot.id]!, FIRST);
+    super(stage, { language: "melfa-basic", leansForward: LEANS_FORWARD }, FIRST);
   }
 
   protected known(name: string): Value | undefined {

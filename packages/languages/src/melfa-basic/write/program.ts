@@ -1,7 +1,6 @@
 import {
   branchOf,
   compose,
-  radians,
   type Condition,
   type EmittedFile,
   type MoveStep,
@@ -10,6 +9,9 @@ import {
   type Pose,
   type Step,
   type Target,
+  type VendorSection,
+  jointsOfAxes,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -18,7 +20,6 @@ import {
   UnsupportedStep,
   Names,
   called,
-  degText,
   fixed,
   inUse,
   mmText,
@@ -26,8 +27,10 @@ import {
   type Add,
   type InUse,
   type Place,
+  shownAxes,
+  degreesText,
 } from "../../emitter/index.ts";
-import { LINES, type SupportedRobot } from "../robots.ts";
+import { LINES } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 16;
@@ -39,7 +42,7 @@ const NONFLIP = 1;
 
 /** The file: the program with its step numbers, the routines that it calls, and its positions behind them. */
 export class MelfaProgram extends BasicProgram {
-  private readonly spoken: SupportedRobot;
+  private readonly section: VendorSection;
   private readonly used: InUse;
   /** Positions in the order in which they were made: name and value. */
   private readonly positions: (readonly [name: string, value: string])[] = [];
@@ -54,13 +57,13 @@ export class MelfaProgram extends BasicProgram {
   /** The tool that was said last, where that is known. */
   private tool: string | undefined;
 
-  constructor(place: Place, spoken: SupportedRobot) {
+  constructor(place: Place, section: VendorSection) {
     super(place, new Names({ most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }), {
       endIf: "EndIf",
       forever: ["While 1", "WEnd"],
       mm: mmText,
     });
-    this.spoken = spoken;
+    this.section = section;
     this.used = inUse(place.program);
   }
 
@@ -257,10 +260,7 @@ export class MelfaProgram extends BasicProgram {
 
   private goal(step: MoveStep, target: Target, flag: string): string {
     // The place that the text's own angles reach.
-    if ("q" in target)
-      return this.point(
-        `${sixText(this.place.tip({ ...target, q: target.q.map(angle => radians(Number(degText(angle)))) }))}${flag}`,
-      );
+    if ("q" in target) return this.point(`${sixText(this.place.tip({ ...target, q: this.written(target.q) }))}${flag}`);
     const { pallets } = this.place.program;
     const { frame } = target;
     if (frame === "world") return this.point(`${sixText(this.inBase(target))}${flag}`);
@@ -281,9 +281,14 @@ export class MelfaProgram extends BasicProgram {
     return name;
   }
 
+  /** The joint angles that are left of those when they are written down. */
+  private written(q_rad: readonly number[]): number[] {
+    return jointsOfAxes(this.section, shownAxes(this.section, q_rad).map(degreesText).map(Number), [] as number[]);
+  }
+
   private angles(q_rad: readonly number[]): string {
     const name = this.names.fresh(`j${++this.joints}`).toUpperCase();
-    this.positions.push([name, `(${q_rad.map(degText).join(",")})`]);
+    this.positions.push([name, `(${shownAxes(this.section, q_rad).map(degreesText).join(",")})`]);
     return name;
   }
 
@@ -311,7 +316,7 @@ export class MelfaProgram extends BasicProgram {
     const configuration =
       (named.shoulder === "front" ? RIGHT : 0) +
       ((named.shoulder === "front") === (named.elbow === "up") ? ABOVE : 0) +
-      (named.wrist === this.spoken.nonFlip ? NONFLIP : 0);
+      (named.wrist === wristAboveZero(this.place.robot) ? NONFLIP : 0);
     return `(${configuration},0)`;
   }
 }

@@ -14,23 +14,12 @@ import {
   type Posture,
   type Rigid,
   type RunContext,
-  type Upright,
   type Value,
 } from "../../parser/basic/index.ts";
 import type { Do, Expression } from "../../parser/structured/index.ts";
 
-/** All joints 0 stands straight up; joint 2 leans forwards, joint 3 folds forwards. */
-const ARMS: Readonly<Record<string, Upright>> = {
-  denso_vs060: {
-    ahead_mm: 0,
-    upper_mm: 305,
-    fore_mm: 300,
-    offset_mm: -10,
-    lean: ([, j2]) => j2!,
-    fold: ([, , j3]) => j3!,
-  },
-};
-export const hasPac = (id: string): boolean => Object.hasOwn(ARMS, id);
+/** Joint 2 leans forwards as it grows, as the maker counts. */
+const LEANS_FORWARD = 1;
 
 interface Said {
   readonly speed: Speed;
@@ -55,7 +44,7 @@ export class PacMachine extends BasicMachine<Said> {
   private readonly works = new Map<number, string>();
 
   constructor(stage: RunContext) {
-    super(stage, ARMS[stage.robot.id]!, FIRST);
+    super(stage, { language: "pacscript", leansForward: LEANS_FORWARD }, FIRST);
   }
 
   protected known(name: string): Value | undefined {

@@ -10,20 +10,23 @@ import {
   type Pose,
   type Step,
   type Target,
+  type VendorSection,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
   BasicModules,
   UnsupportedStep,
   called,
-  degText,
   fixed,
   mmText,
   turnTexts,
   type Add,
   type Place,
+  shownAxes,
+  degreesText,
 } from "../../emitter/index.ts";
-import { GRIPPER, LINES, type SupportedRobot } from "../robots.ts";
+import { GRIPPER, LINES } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 32;
@@ -40,12 +43,12 @@ const WHOLE_G = 1e-6;
 /** The file: `Main` and the subs that it calls. */
 export class PacProgram extends BasicModules {
   protected readonly sharesNumbers = true;
-  private readonly spoken: SupportedRobot;
+  private readonly section: VendorSection;
   /** The figure at the places of the pattern that is written. */
   private figure = AUTOMATIC;
   private places: string[] = [];
 
-  constructor(place: Place, spoken: SupportedRobot) {
+  constructor(place: Place, section: VendorSection) {
     super(
       place,
       { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true },
@@ -64,7 +67,7 @@ export class PacProgram extends BasicModules {
         gripper: GRIPPER,
       },
     );
-    this.spoken = spoken;
+    this.section = section;
   }
 
   protected head(): readonly string[] {
@@ -226,7 +229,7 @@ export class PacProgram extends BasicModules {
   }
 
   private goal(step: MoveStep, target: Target, configuration: readonly number[] | undefined, work: string): string {
-    if ("q" in target) return `J(${target.q.map(degText).join(", ")})`;
+    if ("q" in target) return `J(${shownAxes(this.section, target.q).map(degreesText).join(", ")})`;
     const { pallets } = this.place.program;
     const { frame, pose } = target;
     const isAsked = step.path === "ptp" && target.branch !== undefined;
@@ -259,7 +262,7 @@ export class PacProgram extends BasicModules {
     return (
       (named.shoulder === "front" ? LEFTY : 0) +
       (named.elbow === "up" ? 0 : BELOW) +
-      (named.wrist === this.spoken.nonFlip ? NONFLIP : 0)
+      (named.wrist === wristAboveZero(this.place.robot) ? NONFLIP : 0)
     );
   }
 }

@@ -17,7 +17,7 @@ import {
 } from "../structured/index.ts";
 import type { BasicSource } from "./reader.ts";
 import { NOWHERE, asPose, on, type Rigid } from "./rigid.ts";
-import { UprightArm, inRadians, type Upright } from "./upright.ts";
+import { UprightArm, type Upright } from "./upright.ts";
 import { NotGiven, arithmetic, isUnknown, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
 
 /** Where a text runs. */
@@ -411,7 +411,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     if (typeof goal === "object" && goal.kind === "joints") {
       if (isJoint) arm.goneToAngles(goal.deg);
       else arm.goneTo(arm.atAngles(goal.deg));
-      return { q: inRadians(goal.deg), ...(isJoint && !this.hasTool ? {} : { tool }) };
+      return { q: arm.inRadians(goal.deg), ...(isJoint && !this.hasTool ? {} : { tool }) };
     }
     if (typeof goal === "object" && goal.kind === "unknown") placeIn(goal, at);
     if (typeof goal !== "object" || goal.kind === "shift" || goal.kind === "unknown")
@@ -442,7 +442,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
 
   /** The middle of an arc is passed, not reached. */
   protected passing(goal: Value, at: TextPlace): Target {
-    if (typeof goal === "object" && goal.kind === "joints") return { q: inRadians(goal.deg), tool: this.tool };
+    if (typeof goal === "object" && goal.kind === "joints") return { q: this.arm.inRadians(goal.deg), tool: this.tool };
     return { ...this.poseOf(placeIn(goal, at)), tool: this.tool };
   }
 

@@ -1,42 +1,41 @@
 import { branchOf, flangePose, solveAll, travel, type Branch, type Pose, type Robot } from "@twincell/core";
+import { ShownAxes, armPoints } from "../shown-axes.ts";
 import { NOWHERE, asPose, back, ofPose, on, type Rigid } from "./rigid.ts";
 import type { Posture } from "./values.ts";
 
-/**
- * What a controller knows of an upright arm with six joints: how far axis 2 is in front of axis 1, the lengths of the
- * upper arm and of the forearm, how far the wrist is in front of the forearm's line; how its joints lean the upper arm
- * forwards from upright and fold the forearm forwards from the upper arm [°]; and the sign of joint 5.
- */
+/** How a language counts the arm of its robots. */
 export interface Upright {
-  readonly ahead_mm: number;
-  readonly upper_mm: number;
-  readonly fore_mm: number;
-  readonly offset_mm: number;
-  readonly lean: (joints_deg: readonly number[]) => number;
-  readonly fold: (joints_deg: readonly number[]) => number;
+  /** Id of the language, whose vendor section says what axes show. */
+  readonly language: string;
+  /** 1 where axis 2 leans the upper arm forwards as what it shows grows, else -1. */
+  readonly leansForward: 1 | -1;
 }
-
-const DEG = Math.PI / 180;
-export const inRadians = (deg: readonly number[]): number[] => deg.map(angle => angle * DEG);
 
 /** Where the arm is sent, and what the controller works out about it. Places count from the base of the robot. */
 export class UprightArm {
   readonly robot: Robot;
   tool: Rigid = NOWHERE;
   private readonly worldFromBase: Rigid;
-  private readonly upright: Upright;
+  private readonly axes: ShownAxes;
+  private readonly leansForward: 1 | -1;
   /** The last joint angles that were known [rad]. */
   private near: readonly number[];
   private flange: Rigid;
   /** The robot went where nobody here knows. */
   isLost = false;
 
-  constructor(robot: Robot, upright: Upright, worldFromBase: Pose<"world", "base">) {
+  constructor(robot: Robot, { language, leansForward }: Upright, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
-    this.upright = upright;
+    this.axes = ShownAxes.of(robot, language)!;
+    this.leansForward = leansForward;
     this.worldFromBase = ofPose(worldFromBase);
     this.near = robot.home_rad;
     this.flange = ofPose(flangePose(robot.arm, robot.home_rad));
+  }
+
+  /** Joint angles [rad] of what the axes show. */
+  inRadians(deg: readonly number[]): number[] {
+    return this.axes.radians(deg);
   }
 
   /** The tool, from the base. */
@@ -44,7 +43,7 @@ export class UprightArm {
     return on(this.flange, this.tool);
   }
   atAngles(deg: readonly number[]): Rigid {
-    return on(ofPose(flangePose(this.robot.arm, inRadians(deg))), this.tool);
+    return on(ofPose(flangePose(this.robot.arm, this.inRadians(deg))), this.tool);
   }
   inWorld<Into extends string, From extends string>(place: Rigid): Pose<Into, From> {
     return asPose(on(this.worldFromBase, place));
@@ -52,7 +51,7 @@ export class UprightArm {
 
   goneToAngles(deg: readonly number[]): void {
     this.isLost = false;
-    this.near = inRadians(deg);
+    this.near = this.inRadians(deg);
     this.flange = ofPose(flangePose(this.robot.arm, this.near));
   }
 
@@ -77,23 +76,15 @@ export class UprightArm {
     return branchOf(this.robot, found);
   }
 
-  /**
-   *   reach = ahead + upper · sin lean + fore · sin(lean + fold) + offset · cos(lean + fold)
-   *   bend  = fold + atan2(offset, fore)
-   */
   private fits(q_rad: readonly number[], { front, up, bent, wrist }: Posture): boolean {
-    const { ahead_mm, upper_mm, fore_mm, offset_mm, lean, fold } = this.upright;
-    const deg = q_rad.map(angle => angle / DEG);
-    const upperArm = lean(deg) * DEG;
-    const forearm = upperArm + fold(deg) * DEG;
-    const isFront =
-      ahead_mm + upper_mm * Math.sin(upperArm) + fore_mm * Math.sin(forearm) + offset_mm * Math.cos(forearm) >= 0;
-    const isBent = Math.sin(fold(deg) * DEG + Math.atan2(offset_mm, fore_mm)) > 0;
+    const { ahead_m, folded } = armPoints(this.robot, this.axes, q_rad, this.leansForward);
+    const isFront = ahead_m >= 0;
+    const isBent = folded > 0;
     return (
       (front === undefined || front === isFront) &&
       (bent === undefined || bent === isBent) &&
       (up === undefined || up === (isFront === isBent)) &&
-      (wrist === undefined || wrist === deg[4]! > 0)
+      (wrist === undefined || wrist === this.axes.degrees(q_rad)[4]! > 0)
     );
   }
 

@@ -1,13 +1,14 @@
 import { branchOf, flangePose, type Branch, type Pose, type Robot } from "@twincell/core";
+import { ShownAxes } from "../../parser/index.ts";
 import { octant, solved, type Confdata } from "./configuration.ts";
 import { NOTHING, fromPose, times, toPose, type Frame } from "./frame.ts";
 
 /**
- * Where the arm is sent. The controller counts from the base of the robot; its joints are those of the library, in
- * degrees.
+ * Where the arm is sent. The controller counts from the base of the robot; its joints are shown in degrees.
  */
 export class ControllerArm {
   readonly robot: Robot;
+  readonly axes: ShownAxes;
   private readonly worldFromBase: Frame;
   /** Worked out when it is asked for. */
   private known: Frame | undefined;
@@ -18,7 +19,8 @@ export class ControllerArm {
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
     this.worldFromBase = fromPose(worldFromBase);
-    this.joints_deg = robot.home_rad.map(angle => (angle / Math.PI) * 180);
+    this.axes = ShownAxes.of(robot, "rapid")!;
+    this.joints_deg = this.axes.degrees(robot.home_rad);
   }
 
   get flange(): Frame {
@@ -29,12 +31,7 @@ export class ControllerArm {
     return toPose(times(this.worldFromBase, base));
   }
   flangeAt(joints_deg: readonly number[]): Frame {
-    return fromPose(
-      flangePose(
-        this.robot.arm,
-        joints_deg.map(angle => (angle / 180) * Math.PI),
-      ),
-    );
+    return fromPose(flangePose(this.robot.arm, this.axes.radians(joints_deg)));
   }
 
   atJoints(joints_deg: readonly number[]): void {
@@ -47,10 +44,10 @@ export class ControllerArm {
    * branch, where it has a name.
    */
   atFlange(flange: Frame, conf: Confdata | undefined): Branch | undefined {
-    const near = this.joints_deg?.map(angle => (angle / 180) * Math.PI);
-    const q = solved(this.robot, toPose(flange), near, conf);
+    const near = this.joints_deg === undefined ? undefined : this.axes.radians(this.joints_deg);
+    const q = solved(this.robot, this.axes, toPose(flange), near, conf);
     this.known = flange;
-    this.joints_deg = q?.map(angle => (angle / Math.PI) * 180);
+    this.joints_deg = q === undefined ? undefined : this.axes.degrees(q);
     return q === undefined ? undefined : branchOf(this.robot, q);
   }
 
@@ -58,15 +55,7 @@ export class ControllerArm {
     const { joints_deg } = this;
     if (joints_deg === undefined) return [0, 0, 0, 0];
     const quarter = (joint: number): number => Math.floor(joints_deg[joint]! / 90);
-    return [
-      quarter(0),
-      quarter(3),
-      quarter(5),
-      octant(
-        this.robot,
-        joints_deg.map(angle => (angle / 180) * Math.PI),
-      ),
-    ];
+    return [quarter(0), quarter(3), quarter(5), octant(this.robot, this.axes, this.axes.radians(joints_deg))];
   }
 
   /** Remembers where the arm is; the answer brings it back. */

@@ -1,35 +1,19 @@
-import { linkPoses, identity, solveAll, type Pose, type Robot } from "@twincell/core";
+import { solveAll, type Pose, type Robot } from "@twincell/core";
+import { armPoints, type ShownAxes } from "../../parser/index.ts";
+
+const DEG = 180 / Math.PI;
 
 /** cf1, cf4, cf6, cfx */
 export type Confdata = readonly [number, number, number, number];
-
-const dot = (a: readonly number[], b: readonly number[]): number => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
-const minus = (a: readonly number[], b: readonly number[]): number[] => [a[0]! - b[0]!, a[1]! - b[1]!, a[2]! - b[2]!];
-const crossed = (a: readonly number[], b: readonly number[]): number[] => [
-  a[1]! * b[2]! - a[2]! * b[1]!,
-  a[2]! * b[0]! - a[0]! * b[2]!,
-  a[0]! * b[1]! - a[1]! * b[0]!,
-];
 
 /**
  * Where the arm stands, read off its links: bit 2 the wrist centre is behind axis 1, bit 1 it is behind the lower arm
  * as the arm faces, bit 0 axis 5 is negative.
  */
-export function octant(robot: Robot, q_rad: readonly number[]): number {
-  const links = Array.from({ length: 7 }, () => identity<"base", "link">());
-  linkPoses(robot.arm, q_rad, links);
-  const facing = [Math.cos(q_rad[0]!), Math.sin(q_rad[0]!), 0];
-  const across = [-Math.sin(q_rad[0]!), Math.cos(q_rad[0]!), 0];
-  const shoulder = links[2]!.position;
-  const elbow = links[3]!.position;
-  const wrist = links[5]!.position;
-  const isBehind = dot(minus(wrist, links[1]!.position), facing) < 0;
-  const leans = dot(crossed(minus(elbow, shoulder), minus(wrist, elbow)), across) < 0;
-  return (isBehind ? 4 : 0) + (leans ? 2 : 0) + (q_rad[4]! < 0 ? 1 : 0);
+export function octant(robot: Robot, axes: ShownAxes, q_rad: readonly number[]): number {
+  const { ahead_m, folded } = armPoints(robot, axes, q_rad);
+  return (ahead_m < 0 ? 4 : 0) + (folded < 0 ? 2 : 0) + (axes.degrees(q_rad)[4]! < 0 ? 1 : 0);
 }
-
-/** Arms whose wrist is a ball, of which cfx speaks. Of others the manual's words say nothing here. */
-const HAS_OCTANTS: ReadonlySet<string> = new Set(["abb_irb120"]);
 
 /** How far an angle is from a quarter turn [rad]; 0 inside. */
 function outside(angle_rad: number, quarter: number): number {
@@ -47,16 +31,20 @@ const BORDER_RAD = 1e-4;
  */
 export function solved(
   robot: Robot,
+  axes: ShownAxes,
   baseFromFlange: Pose<"base", "flange">,
   near: readonly number[] | undefined,
   conf: Confdata | undefined,
 ): readonly number[] | undefined {
   const reach = solveAll(robot, baseFromFlange, near === undefined ? {} : { near });
   if (reach.kind !== "reached") return undefined;
+  // Of a wrist whose axes do not meet the manual's words for cfx say nothing here.
+  const isSpherical = robot.family.kind === "ortho-parallel";
   let best: readonly number[] | undefined;
   let least = Infinity;
   for (const { q_rad } of reach.solutions) {
     const q = [...q_rad];
+    const shown = axes.degrees(q);
     const way = near === undefined ? 0 : q.reduce((sum, angle, i) => sum + Math.abs(angle - near[i]!), 0);
     const beside =
       conf === undefined
@@ -66,9 +54,9 @@ export function solved(
             [3, 1],
             [5, 2],
           ].reduce((sum, [joint, k]) => {
-            const gap = outside(q[joint!]!, conf[k!]!);
+            const gap = outside(shown[joint!]! / DEG, conf[k!]!);
             return sum + (gap > BORDER_RAD ? gap : 0);
-          }, 0) + (!HAS_OCTANTS.has(robot.id) || octant(robot, q) === conf[3] ? 0 : 2 * Math.PI);
+          }, 0) + (!isSpherical || octant(robot, axes, q) === conf[3] ? 0 : 2 * Math.PI);
     const cost = 1000 * beside + way;
     if (cost < least) {
       least = cost;

@@ -889,7 +889,7 @@ export class Machine extends BlockMachine<Value> {
     if (name === "moveabsj") {
       const joints = jointsOf(this.evaluate(goal), goal);
       this.arm.atJoints(joints);
-      return { ...common, path: "ptp", target: { q: joints.map(angle => (angle / 180) * Math.PI), tool } };
+      return { ...common, path: "ptp", target: { q: this.arm.axes.radians(joints), tool } };
     }
     const frame = object === undefined ? WORLD : this.workObject(object);
     const target = this.target(goal, frame, tool, name === "movej", true);

@@ -1,5 +1,5 @@
-import { branchOf, type Pose, type Robot } from "@twincell/core";
-import { fixed } from "../../emitter/index.ts";
+import { branchOf, type Pose, type Robot, type VendorSection, wristAboveZero } from "@twincell/core";
+import { fixed, shownAxes } from "../../emitter/index.ts";
 
 /** A tenth of a micrometre, and a hundred-thousandth of a degree. */
 const DECIMALS = { mm: 4, deg: 5, part: 7 } as const;
@@ -30,22 +30,32 @@ export function orientText([x, y, z, w]: Pose["quaternion"]): string {
 
 export const poseText = ({ position, quaternion }: Pose): string => `[${posText(position)},${orientText(quaternion)}]`;
 
+const degreesText = (value_deg: number): string => fixed(value_deg, DECIMALS.deg);
+
 /** No axis outside the robot. */
 export const NO_AXES = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 
 /** Quarters of a turn of axes 1, 4 and 6 and, for a spherical wrist, which of the eight postures it is. */
-export function confText(robot: Robot, q_rad: ArrayLike<number> | undefined, hasCfx: boolean): string {
+export function confText(
+  robot: Robot,
+  section: VendorSection,
+  q_rad: ArrayLike<number> | undefined,
+  hasCfx: boolean,
+): string {
   if (q_rad === undefined) return "[0,0,0,0]";
-  const quarter = (joint: number): number => Math.floor(Number(deg(q_rad[joint]!)) / 90);
+  const axes = shownAxes(section, q_rad);
+  const quarter = (axis: number): number => Math.floor(Number(degreesText(axes[axis]!)) / 90);
   const branch = hasCfx ? branchOf(robot, q_rad) : undefined;
   const isBack = branch?.shoulder === "back";
   const isUnder = branch !== undefined && (branch.elbow === "up") === isBack;
-  return `[${quarter(0)},${quarter(3)},${quarter(5)},${(isBack ? 4 : 0) + (isUnder ? 2 : 0) + (branch?.wrist === "negative" ? 1 : 0)}]`;
+  return `[${quarter(0)},${quarter(3)},${quarter(5)},${(isBack ? 4 : 0) + (isUnder ? 2 : 0) + (branch === undefined || branch.wrist === wristAboveZero(robot) ? 0 : 1)}]`;
 }
 
 export const targetText = (pose: Pose, conf: string): string =>
   `[${posText(pose.position)},${orientText(pose.quaternion)},${conf},${NO_AXES}]`;
-export const jointsText = (q_rad: ArrayLike<number>): string => `[[${Array.from(q_rad, deg).join(",")}],${NO_AXES}]`;
+/** Axis values [°] as the controller shows them. */
+export const jointsText = (axes_deg: readonly number[]): string =>
+  `[[${axes_deg.map(degreesText).join(",")}],${NO_AXES}]`;
 /** A tool without a load of its own: what the flange carries is said by GripLoad. */
 export const toolText = (tool: Pose): string => `[TRUE,${poseText(tool)},[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]`;
 export const objectText = (frame: Pose): string => `[FALSE,TRUE,"",${poseText(frame)},[[0,0,0],[1,0,0,0]]]`;

@@ -14,6 +14,7 @@ import {
   type Speed,
   type Step,
   type Target,
+  type VendorSection,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -27,8 +28,9 @@ import {
   pitchTerm,
   remark,
   type Pattern,
+  shownAxes,
 } from "../../emitter/index.ts";
-import { GRIPPER_SIGNAL, type Configuration } from "../robots.ts";
+import { GRIPPER_SIGNAL } from "../robots.ts";
 import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
 import { Declarations } from "./declarations.ts";
 import { WORDS } from "./words.ts";
@@ -40,6 +42,7 @@ const LEAST_ACCELERATION = 0.2;
 export class ProgramWriter extends BlockStepWriter {
   readonly warnings = new Set<string>();
   private readonly robot: Robot;
+  private readonly section: VendorSection;
   private readonly data = new Declarations();
   private readonly code = this.out;
   private readonly local = new Set<string>();
@@ -50,10 +53,12 @@ export class ProgramWriter extends BlockStepWriter {
   private tool: string | undefined;
   private acceleration = 1;
 
-  constructor(place: Place, configuration: Configuration) {
+  constructor(place: Place, section: VendorSection) {
     super(place);
     this.robot = place.robot;
-    this.solves = configuration.hasCfx;
+    this.section = section;
+    // cfx is defined for a spherical wrist; of another nobody has said what it means.
+    this.solves = place.robot.family.kind === "ortho-parallel";
   }
 
   write(): readonly EmittedFile[] {
@@ -487,7 +492,7 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private joints(step: MoveStep, q: readonly number[]): string {
-    const text = jointsText(q);
+    const text = jointsText(shownAxes(this.section, q));
     const name = this.pointName(step, "");
     this.data.add(`point ${name}`, `CONST jointtarget ${name}:=${text};`, step.id);
     return name;
@@ -503,7 +508,10 @@ export class ProgramWriter extends BlockStepWriter {
       this.warnings.add(
         "What the configuration numbers mean for this arm is not known here: they are written as 0 and not asked for. Try the first motion slowly.",
       );
-    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.solves));
+    const text = targetText(
+      inFrame,
+      confText(this.robot, this.section, this.solves ? posture : undefined, this.solves),
+    );
     const name = this.pointName(step, ending);
     this.data.add(`point ${name}`, `CONST robtarget ${name}:=${text};`, step.id);
     return name;

@@ -18,26 +18,12 @@ import {
   type Rigid,
   type Six,
   type RunContext,
-  type Upright,
   type Value,
 } from "../../parser/basic/index.ts";
 import type { Do, Expression } from "../../parser/structured/index.ts";
 
-/**
- * Angles of the controller are those of the maker's zeros: the forearm level, joint 2 leaning back, joint 3 lifting the
- * forearm.
- */
-const ARMS: Readonly<Record<string, Upright>> = {
-  epson_c4_a601s: {
-    ahead_mm: 100,
-    upper_mm: 250,
-    fore_mm: 250,
-    offset_mm: 0,
-    lean: ([, j2]) => -j2!,
-    fold: ([, , j3]) => 90 - j3!,
-  },
-};
-export const hasSpel = (id: string): boolean => Object.hasOwn(ARMS, id);
+/** Joint 2 leans back as it grows, as the maker counts. */
+const LEANS_FORWARD = -1;
 
 interface Said {
   readonly speed: Speed;
@@ -75,7 +61,7 @@ export class SpelMachine extends BasicMachine<Said> {
   >();
 
   constructor(stage: RunContext) {
-    super(stage, ARMS[stage.robot.id]!, FIRST);
+    super(stage, { language: "spel", leansForward: LEANS_FORWARD }, FIRST);
   }
 
   protected known(name: string): Value | undefined {

@@ -8,19 +8,22 @@ import {
   type Pose,
   type Step,
   type Target,
+  type VendorSection,
+  wristAboveZero,
 } from "@twincell/core";
 import {
   BasicModules,
   UnsupportedStep,
   called,
-  degText,
   fixed,
   mmText,
   turnTexts,
   type Add,
   type Place,
+  shownAxes,
+  degreesText,
 } from "../../emitter/index.ts";
-import { GRIPPER, LINES, type SupportedRobot } from "../robots.ts";
+import { GRIPPER, LINES } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 32;
@@ -36,9 +39,9 @@ const STRAIGHT = 1e-9;
 /** The file: `main` and the functions that it calls. */
 export class SpelProgram extends BasicModules {
   protected readonly sharesNumbers = false;
-  private readonly spoken: SupportedRobot;
+  private readonly section: VendorSection;
 
-  constructor(place: Place, spoken: SupportedRobot) {
+  constructor(place: Place, section: VendorSection) {
     super(
       place,
       { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true },
@@ -57,7 +60,7 @@ export class SpelProgram extends BasicModules {
         gripper: GRIPPER,
       },
     );
-    this.spoken = spoken;
+    this.section = section;
   }
 
   protected head(): readonly string[] {
@@ -153,7 +156,7 @@ export class SpelProgram extends BasicModules {
   }
 
   private goal(step: MoveStep, target: Target): string {
-    if ("q" in target) return `JA(${target.q.map(degText).join(", ")})`;
+    if ("q" in target) return `JA(${shownAxes(this.section, target.q).map(degreesText).join(", ")})`;
     return Object.hasOwn(this.place.program.pallets, target.frame)
       ? this.inPattern(step, target.frame, target.pose)
       : `${xyText(this.inBase(target))}${this.local(target.frame)}`;
@@ -180,7 +183,7 @@ export class SpelProgram extends BasicModules {
     const named =
       branch === undefined || configuration === undefined ? undefined : branchOf(this.place.robot, configuration);
     if (named === undefined) return "";
-    return ` /${named.shoulder === "front" ? "R" : "L"} /${named.elbow === "up" ? "A" : "B"} /${named.wrist === this.spoken.noFlip ? "NF" : "F"}`;
+    return ` /${named.shoulder === "front" ? "R" : "L"} /${named.elbow === "up" ? "A" : "B"} /${named.wrist !== wristAboveZero(this.place.robot) ? "NF" : "F"}`;
   }
 }
 

@@ -8,14 +8,15 @@ import {
   type Pose,
   type Robot,
 } from "@twincell/core";
-import { BASE_FROM_CONTROLLER, fromPose, inverted, matrixOf, sixOf, times, toPose, type Matrix } from "./frame.ts";
+import { fromPose, inverted, matrixOf, sixOf, times, toPose, type Matrix } from "./frame.ts";
 import type { PoseValue } from "./values.ts";
 
 /** Where the arm is sent, and what the controller works out about it. Poses count in the controller's base. */
 export class ControllerArm {
   readonly robot: Robot;
   private readonly worldFromController: Matrix;
-  private readonly baseFromController = toPose<"base", "controller">(BASE_FROM_CONTROLLER);
+  private readonly controllerFromBase: Matrix;
+  private readonly baseFromController: Pose<"base", "controller">;
   private readonly scratch = solverScratch();
   tcp: Matrix = matrixOf([0, 0, 0, 0, 0, 0]);
   /**
@@ -27,12 +28,15 @@ export class ControllerArm {
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
-    this.worldFromController = times(fromPose(worldFromBase), BASE_FROM_CONTROLLER);
+    const baseFromController = fromPose(robot.baseFromVendorWorld);
+    this.baseFromController = toPose<"base", "controller">(baseFromController);
+    this.controllerFromBase = inverted(baseFromController);
+    this.worldFromController = times(fromPose(worldFromBase), baseFromController);
     this.settled = robot.home_rad;
   }
 
   flangeAt(joints: readonly number[]): Matrix {
-    return times(inverted(BASE_FROM_CONTROLLER), fromPose(flangePose(this.robot.arm, joints)));
+    return times(this.controllerFromBase, fromPose(flangePose(this.robot.arm, joints)));
   }
   /** The tool tip where the arm is sent. */
   tip(): Matrix {

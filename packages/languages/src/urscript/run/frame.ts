@@ -73,9 +73,6 @@ export function inverted({ r, p }: Matrix): Matrix {
   return { r: [r[0]!, r[3]!, r[6]!, r[1]!, r[4]!, r[7]!, r[2]!, r[5]!, r[8]!], p: [back(0), back(1), back(2)] };
 }
 
-/** The controller's base is the robot's turned by half a turn about z: x and y change their signs. */
-export const BASE_FROM_CONTROLLER: Matrix = { r: [-1, 0, 0, 0, -1, 0, 0, 0, 1], p: [0, 0, 0] };
-
 /** As a quaternion, for the rest of the world. */
 export const toPose = <Into extends string = string, From extends string = string>({
   r,

@@ -29,9 +29,13 @@ import { Arguments } from "./arguments.ts";
 import { conditionOf, routeOf, holds, lineAt } from "./lines.ts";
 import { asNumber, asNumbers, asPose, asTruth, binary, kindOf, poseOf, type PoseValue, type Value } from "./values.ts";
 
-/** Speed at which all joints can turn, and what the controller takes where a move says nothing [rad/s, m/s]. */
-const FULL_RAD_S: Readonly<Record<string, number>> = { ur10e: (120 / 180) * Math.PI };
-export const speaksUrScript = (robot: Robot): boolean => Object.hasOwn(FULL_RAD_S, robot.id);
+/** The controller counts joints as the robot's own file does: no sign, zero or coupling is ever set there. */
+export function speaksUrScript({ vendorSection }: Robot): boolean {
+  if (vendorSection?.languages.includes("urscript") !== true) return false;
+  const { axes, couplings = [] } = vendorSection;
+  return axes.every(({ sign, zero_deg }) => sign > 0 && zero_deg === 0) && couplings.length === 0;
+}
+/** What the controller takes where a move says nothing [rad/s, m/s]. */
 const DEFAULT_RAD_S = 1.05;
 const DEFAULT_MPS = 0.25;
 /** Functions whose answer comes from another machine or a sensor: what they say is in no text. */
@@ -60,6 +64,8 @@ class OutsideValue extends TextError {}
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
   readonly declared: DeclaredCell;
+  /** Speed at which the slowest joint turns, so that all can [rad/s]. */
+  private readonly full_rad_s: number;
   private readonly constants: ReadonlySet<string>;
   /** Names that some statement of the text gives a value. */
   private readonly assigned: ReadonlySet<string>;
@@ -88,6 +94,7 @@ export class Machine extends BlockMachine<Value> {
   ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
+    this.full_rad_s = robot.arm.joints.reduce((least, { limits }) => Math.min(least, limits.speed_rad_s), Infinity);
     this.declared = declared;
     this.constants = constants;
     this.assigned = changedNames([source.main, ...[...source.routines.values()].map(({ body }) => body)]);
@@ -543,7 +550,7 @@ export class Machine extends BlockMachine<Value> {
   private speed(isJoint: boolean, v: number | undefined, at: TextPlace): Speed {
     const value = v ?? (isJoint ? DEFAULT_RAD_S : DEFAULT_MPS);
     if (!(value > 0)) throw new TextError(at, "a speed above 0", `The speed is ${value} ${isJoint ? "rad/s" : "m/s"}.`);
-    return isJoint ? { ratio: Math.min(1, value / FULL_RAD_S[this.arm.robot.id]!) } : { mps: value };
+    return isJoint ? { ratio: Math.min(1, value / this.full_rad_s) } : { mps: value };
   }
 
   private target(goal: Value, at: TextPlace, choosesPosture: boolean): Target {

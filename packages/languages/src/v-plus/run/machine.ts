@@ -8,9 +8,8 @@ import {
   type Step,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, type ShownAxes } from "../../parser/index.ts";
 import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
-import type { JointConvention } from "../robots.ts";
 import { ControllerState, type DeclaredContext } from "./state.ts";
 import { fromTrans, times, type Transform } from "./transform.ts";
 import { evaluate, keyOf, location, number, signalName, transform, type Precision, type Value } from "./values.ts";
@@ -43,13 +42,13 @@ export class Machine {
   constructor(
     source: Source,
     robot: Robot,
-    convention: JointConvention,
+    axes: ShownAxes,
     worldFromBase: Pose<"world", "base">,
     met: DeclaredContext,
     signals: Signals = new SignalTable(),
   ) {
     this.source = source;
-    this.state = new ControllerState(robot, convention, worldFromBase, met, signals);
+    this.state = new ControllerState(robot, axes, worldFromBase, met, signals);
     // A program that looks at a line waits for something outside: it does not run on the spot.
     this.state.onRead = () => {
       this.idle = 0;

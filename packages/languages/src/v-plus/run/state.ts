@@ -1,10 +1,8 @@
 import {
   compose,
-  degrees,
   flangePose,
   identity,
   inverse,
-  radians,
   type Branch,
   type MoveStep,
   type Pose,
@@ -15,9 +13,8 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, type ShownAxes } from "../../parser/index.ts";
 import type { ConfigWord } from "../read/syntax.ts";
-import type { JointConvention } from "../robots.ts";
 import {
   NULL_TRANSFORM,
   components,
@@ -33,13 +30,11 @@ import type { Memory, Precision, Value } from "./values.ts";
 const INCH_MM = 25.4;
 
 /** What the words of the controller mean in the words of a person, one for each part of the branch. */
-const CONFIG: Readonly<Record<ConfigWord, Partial<Branch>>> = {
+const CONFIG: Readonly<Record<Exclude<ConfigWord, "FLIP" | "NOFLIP">, Partial<Branch>>> = {
   RIGHTY: { shoulder: "front" },
   LEFTY: { shoulder: "back" },
   ABOVE: { elbow: "up" },
   BELOW: { elbow: "down" },
-  NOFLIP: { wrist: "positive" },
-  FLIP: { wrist: "negative" },
 };
 
 /** Tools by the name under which the steps know them. */
@@ -60,7 +55,7 @@ export class ControllerState implements Memory {
   readonly joints: number;
   continuous = true;
   private readonly robot: Robot;
-  private readonly convention: JointConvention;
+  private readonly axes: ShownAxes;
   private readonly worldFromVendor: Pose<"frame", "vendor-world">;
   private readonly vendorFromBase: Pose<"vendor-world", "base">;
   private readonly variables = new Map<string, Value>();
@@ -89,7 +84,7 @@ export class ControllerState implements Memory {
 
   constructor(
     robot: Robot,
-    convention: JointConvention,
+    axes: ShownAxes,
     worldFromBase: Pose<"world", "base">,
     { tools, lines }: DeclaredContext,
     signals: Signals,
@@ -98,12 +93,12 @@ export class ControllerState implements Memory {
     this.lines = lines;
     this.signals = signals;
     this.joints = robot.arm.joints.length;
-    this.convention = convention;
+    this.axes = axes;
     this.tools = tools;
     // The world is a frame like any other to a program.
     this.worldFromVendor = compose(compose(identity<"frame", "world">(), worldFromBase), robot.baseFromVendorWorld);
     this.vendorFromBase = inverse(robot.baseFromVendorWorld);
-    this.joints_deg = robot.home_rad.map((q, i) => degrees(q) * convention.signs[i]! + convention.offsets_deg[i]!);
+    this.joints_deg = axes.degrees(robot.home_rad);
     this.flange = this.flangeAt(this.joints_deg);
   }
 
@@ -160,7 +155,9 @@ export class ControllerState implements Memory {
   }
 
   configure(word: ConfigWord): void {
-    this.branch = { ...this.branch, ...CONFIG[word] };
+    const part =
+      word === "FLIP" || word === "NOFLIP" ? this.axes.wristAt(this.robot, word === "FLIP" ? -1 : 1) : CONFIG[word];
+    this.branch = { ...this.branch, ...part };
   }
 
   setSpeed(value: number, unit: "percent" | "mmps" | "ips", always: boolean, at: TextPlace): void {
@@ -242,7 +239,7 @@ export class ControllerState implements Memory {
   }
 
   private radiansOf(joints_deg: readonly number[]): number[] {
-    return joints_deg.map((value, i) => radians((value - this.convention.offsets_deg[i]!) / this.convention.signs[i]!));
+    return this.axes.radians(joints_deg);
   }
 
   /** A tool met before keeps its name; two tools never share one. */

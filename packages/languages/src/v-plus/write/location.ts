@@ -1,6 +1,6 @@
-import { degrees, millimetres, toVplusYpr, type JointLimits, type Pose, type Robot } from "@twincell/core";
+import { shownAxes } from "../../emitter/index.ts";
+import { millimetres, toVplusYpr, type JointLimits, type Pose, type Robot, type VendorSection } from "@twincell/core";
 import { singleText } from "../../parser/index.ts";
-import type { JointConvention } from "../robots.ts";
 
 /** TRANS(x,y,z,yaw,pitch,roll) in mm and degrees. */
 export function transText({ position, quaternion }: Pose): string {
@@ -12,8 +12,8 @@ export function transText({ position, quaternion }: Pose): string {
  * #PPOINT(j1,…,jn) in degrees as V+ counts them: no blanks, ASCII minus, seven significant digits, no exponent (rows
  * N-54 … N-56).
  */
-export function ppointText(q_rad: ArrayLike<number>, { signs, offsets_deg }: JointConvention): string {
-  return `#PPOINT(${Array.from(q_rad, (q, i) => tidy(signs[i]! * degrees(q) + offsets_deg[i]!)).join(",")})`;
+export function ppointText(q_rad: ArrayLike<number>, section: VendorSection): string {
+  return `#PPOINT(${shownAxes(section, q_rad).map(tidy).join(",")})`;
 }
 
 /** A millionth of a millimetre or of a degree is arithmetic, not a wish. */

@@ -13,27 +13,28 @@ import {
   type Speed,
   type Step,
   type Target,
+  type VendorSection,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText, singleText } from "../../parser/index.ts";
-import type { JointConvention } from "../robots.ts";
 import { ppointText, transText } from "./location.ts";
 import { commentText, vPlusName } from "./names.ts";
 import { palletLines, type PalletNames } from "./pallet.ts";
 import { toolOf, worldFromTarget, type Place, type ConfigurationMap } from "./postures.ts";
 import { TextWriter } from "./text-writer.ts";
 
-/** The words of the controller for a branch: shoulder, elbow, wrist. */
-const words = ({ shoulder, elbow, wrist }: Branch): string[] => [
+/** The words of the controller for a branch: shoulder, elbow, wrist, which is not flipped where axis 5 is above 0. */
+const words = ({ shoulder, elbow, wrist }: Branch, above: Branch["wrist"]): string[] => [
   shoulder === "front" ? "RIGHTY" : "LEFTY",
   elbow === "up" ? "ABOVE" : "BELOW",
-  wrist === "positive" ? "NOFLIP" : "FLIP",
+  wrist === above ? "NOFLIP" : "FLIP",
 ];
 
 /** The runnable program (E-08): says only what changes from one step to the next. */
 export class ProgramWriter {
   private readonly program: Program;
   private readonly place: Place;
-  private readonly convention: JointConvention;
+  private readonly convention: VendorSection;
   private readonly q_rad: ConfigurationMap;
   private readonly out = new TextWriter();
   private readonly names = new Set<string>();
@@ -51,7 +52,7 @@ export class ProgramWriter {
   private group = "";
   private indent = "  ";
 
-  constructor(program: Program, place: Place, convention: JointConvention, q_rad: ConfigurationMap) {
+  constructor(program: Program, place: Place, convention: VendorSection, q_rad: ConfigurationMap) {
     this.q_rad = q_rad;
     this.program = program;
     this.place = place;
@@ -241,7 +242,7 @@ export class ProgramWriter {
    */
   private configure({ id, target }: MoveStep, add: (line: string) => void): void {
     const branch = "q" in target ? undefined : branchOf(this.place.robot, this.q_rad.get(id)!);
-    const said = branch === undefined ? [] : words(branch);
+    const said = branch === undefined ? [] : words(branch, wristAboveZero(this.place.robot));
     if (said.join() !== this.branch) for (const word of said) add(word);
     this.branch = said.join();
   }

@@ -1,13 +1,5 @@
-import {
-  branchOf,
-  flangePose,
-  identity,
-  linkPoses,
-  solveAll,
-  type Branch,
-  type Pose,
-  type Robot,
-} from "@twincell/core";
+import { branchOf, flangePose, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
+import { ShownAxes, armPoints } from "../../parser/index.ts";
 import { fromPose, inverted, times, toPose, type Trsf } from "./trsf.ts";
 
 /** Configuration words of a point. */
@@ -17,25 +9,20 @@ export interface Config {
   readonly wrist: string;
 }
 
-/**
- * Where the controllers of these robots count from: the height of axis 2. Their joints are degrees from upright, as
- * here.
- */
-const WORLDS: Readonly<Record<string, Trsf>> = { staubli_rx160: { mm: [0, 0, 550], wxyz: [1, 0, 0, 0] } };
-export const hasWorld = (robot: Robot): boolean => Object.hasOwn(WORLDS, robot.id);
-
 const BORDER_MM = 0.01;
-const BORDER_RAD = 1e-5;
+const BORDER_DEG = 5e-4;
 
 export class ControllerArm {
   readonly robot: Robot;
+  readonly axes: ShownAxes;
   private readonly baseFromWorld: Trsf;
   private readonly cellFromWorld: Trsf;
   joints_rad: readonly number[] | undefined;
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
-    this.baseFromWorld = WORLDS[robot.id]!;
+    this.axes = ShownAxes.of(robot, "val3")!;
+    this.baseFromWorld = fromPose(robot.baseFromVendorWorld);
     this.cellFromWorld = times(fromPose(worldFromBase), this.baseFromWorld);
     this.joints_rad = robot.home_rad;
   }
@@ -67,16 +54,14 @@ export class ControllerArm {
   }
 
   private fits(q: readonly number[], { shoulder, elbow, wrist }: Config): boolean {
-    const links = Array.from({ length: 7 }, () => identity<"base", "link">());
-    linkPoses(this.robot.arm, q, links);
-    const [x, y] = links[5]!.position;
-    const ahead_mm = 1000 * (x * Math.cos(q[0]!) + y * Math.sin(q[0]!));
+    const shown = this.axes.degrees(q);
+    const ahead_mm = 1000 * armPoints(this.robot, this.axes, q).ahead_m;
     const asked = (word: string, yes: string, no: string, value: number, border: number): boolean =>
       Math.abs(value) < border || (word !== yes && word !== no) || (word === yes) === value > 0;
     return (
       asked(shoulder, "righty", "lefty", ahead_mm, BORDER_MM) &&
-      asked(elbow, "epositive", "enegative", q[2]!, BORDER_RAD) &&
-      asked(wrist, "wpositive", "wnegative", q[4]!, BORDER_RAD)
+      asked(elbow, "epositive", "enegative", shown[2]!, BORDER_DEG) &&
+      asked(wrist, "wpositive", "wnegative", shown[4]!, BORDER_DEG)
     );
   }
 

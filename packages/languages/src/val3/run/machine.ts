@@ -384,7 +384,7 @@ export class Machine extends BlockMachine<Value> {
         const { joints_rad } = this.arm;
         if (this.lost !== undefined || joints_rad === undefined)
           throw new TextError(at, "a position that is known", this.lost ?? "Where the robot is is not known here.");
-        return { kind: "joint", deg: joints_rad.map(angle => (angle / Math.PI) * 180) };
+        return { kind: "joint", deg: this.arm.axes.degrees(joints_rad) };
       }
       case "distance": {
         const [p, q] = [this.placeOf(given(0), at), this.placeOf(given(1), at)];
@@ -799,7 +799,7 @@ export class Machine extends BlockMachine<Value> {
         : {};
     if (typeof value === "object" && !isList(value) && value.kind === "joint") {
       if (word !== "movej") throw new TextError(goal, "a point", `${word} goes to a point.`);
-      const q = value.deg.map(angle => (angle / 180) * Math.PI);
+      const q = this.arm.axes.radians(value.deg);
       this.arm.joints_rad = q;
       return { ...common, path: "ptp", target: { q, tool: name } };
     }

@@ -1,4 +1,4 @@
-import { degrees, toVal3, type Pose } from "@twincell/core";
+import { toVal3, type Pose } from "@twincell/core";
 import { Names, fixed } from "../../emitter/index.ts";
 
 /** A tenth of a micrometre, a hundred-thousandth of a degree. */
@@ -98,8 +98,9 @@ export function sixOf({ position, quaternion }: Pose): readonly string[] {
   ];
 }
 export const trsfAttributes = (pose: Pose): string => attributes(sixOf(pose).map((text, i) => [NAMES[i]!, text]));
-export const jointAttributes = (q_rad: ArrayLike<number>): string =>
-  attributes(Array.from(q_rad, (q, i): [string, string] => [`j${i + 1}`, fixed(degrees(q), DEG)]));
+/** Axis values [°] as the controller shows them. */
+export const jointAttributes = (axes_deg: readonly number[]): string =>
+  attributes(axes_deg.map((value, i): [string, string] => [`j${i + 1}`, fixed(value, DEG)]));
 
 interface DataDeclaration {
   readonly name: string;

@@ -11,8 +11,10 @@ import {
   type Pose,
   type SignalLine,
   type Step,
+  type VendorSection,
   type Target,
   type Vector3,
+  wristAboveZero,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -24,6 +26,8 @@ import {
   patternOf,
   pitchTerm,
   remark,
+  type Place,
+  shownAxes,
 } from "../../emitter/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
@@ -46,6 +50,12 @@ export class ApplicationWriter extends BlockStepWriter {
   private tool: string | undefined;
   /** Whether motions may be under way that what follows must not overtake. */
   private moving = false;
+  private readonly section: VendorSection;
+
+  constructor(place: Place, section: VendorSection) {
+    super(place);
+    this.section = section;
+  }
 
   write(): readonly EmittedFile[] {
     const { program } = this.place;
@@ -360,7 +370,9 @@ export class ApplicationWriter extends BlockStepWriter {
     this.moving = true;
     const rest = `${this.toolName(tool, id)},${this.description(step, next)}`;
     if (isAngles)
-      return add(`movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(target.q), id)},${rest})`);
+      return add(
+        `movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(shownAxes(this.section, target.q)), id)},${rest})`,
+      );
     const goal = this.point(step, target, frame, configuration, "");
     const word = path === "ptp" ? "movej" : path === "lin" ? "movel" : "movec";
     if (path !== "circ") return add(`${word}(${goal},${rest})`);
@@ -403,6 +415,7 @@ export class ApplicationWriter extends BlockStepWriter {
           );
     const [shoulder, elbow, wrist] = configWords(
       configuration === undefined ? undefined : branchOf(this.place.robot, configuration),
+      wristAboveZero(this.place.robot),
     );
     const father = frame === "world" ? "world" : this.frame(frame, step.id);
     return this.data.add(
