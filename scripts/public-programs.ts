@@ -1,5 +1,6 @@
 // How many public vendor programs open as they are, and how many of them then move the robot with every input off:
 // npm run public-programs FOLDER [-- --write] [-- --faults krl] [-- --only krl,rapid] [-- --slow]
+// [-- --work]: only the half to work on.
 //
 // FOLDER holds one folder a repository, named owner+name, with its files at their paths. Nothing is downloaded; without
 // the folder there is nothing to count. Files are split by hash: with --faults only those of the half to work on are
@@ -12,7 +13,7 @@ import { createHash } from "node:crypto";
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, extname, join, relative } from "node:path";
 import { LIBRARY, type Dialect, type Robot, type TextFault } from "@twincell/core";
-import { DIALECTS, executeText, informDialect, joinFiles } from "@twincell/languages";
+import { DIALECTS, NOT_GIVEN, executeText, informDialect, joinFiles } from "@twincell/languages";
 import { textFileOf, type TextFile } from "@twincell/project";
 
 /** Which dialect the words of a file belong to, its ending being shared by several. */
@@ -60,6 +61,11 @@ const ROBOTS: Readonly<Record<string, string>> = {
   "melfa-basic": "mitsubishi_rv7fl",
   pacscript: "denso_vs060",
 };
+/**
+ * At most so many files of a language are counted of one repository, the first by hash: the backups of one plant hold
+ * thousands that are alike.
+ */
+const MOST_OF_ONE = 100;
 /** Larger files are no program. */
 const MOST_BYTES = 2_000_000;
 
@@ -73,6 +79,8 @@ interface Outcome {
   readonly half: "work" | "count";
   readonly opens: boolean;
   readonly executes: boolean;
+  /** Nothing is left out or taken for granted that only the controller knows. */
+  readonly whole: boolean;
   readonly fault: string;
   readonly ms: number;
 }
@@ -95,9 +103,16 @@ const outcomes = countAll(folder);
 print(outcomes);
 if (rest.includes("--write")) write(outcomes);
 
+interface Candidate {
+  readonly dialect: string;
+  readonly repository: string;
+  readonly path: string;
+  readonly sha256: string;
+}
+
 function countAll(root: string): readonly Outcome[] {
   const seen = new Set<string>();
-  const all: Outcome[] = [];
+  const found: Candidate[] = [];
   for (const path of filesIn(root)) {
     const known = SIGNS.filter(([, endings]) => endings.test(path));
     if (known.length === 0 || statSync(path).size > MOST_BYTES) continue;
@@ -110,17 +125,30 @@ function countAll(root: string): readonly Outcome[] {
     if (FILLED.has(sign[0]) && TEMPLATE.test(file.text)) continue;
     seen.add(sha256);
     const [repository = "", ...parts] = relative(root, path).split("/");
-    const half = Number.parseInt(sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count";
-    all.push({
-      dialect: sign[0],
-      repository: repository.replace("+", "/"),
-      path: parts.join("/"),
-      sha256,
-      half,
-      ...opened(dialectFor(sign[0]), root, path),
-    });
+    found.push({ dialect: sign[0], repository: repository.replace("+", "/"), path: parts.join("/"), sha256 });
   }
-  return all;
+  return evenly(found)
+    .map(
+      each => ({ ...each, half: Number.parseInt(each.sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count" }) as const,
+    )
+    .filter(({ half }) => half === "work" || !rest.includes("--work"))
+    .map(each => ({
+      ...each,
+      ...opened(dialectFor(each.dialect), root, join(root, each.repository.replace("/", "+"), each.path)),
+    }));
+}
+
+function evenly(candidates: readonly Candidate[]): readonly Candidate[] {
+  const taken = new Map<string, number>();
+  const kept = candidates
+    .toSorted((a, b) => (a.sha256 < b.sha256 ? -1 : 1))
+    .filter(({ dialect, repository }) => {
+      const count = (taken.get(`${dialect} ${repository}`) ?? 0) + 1;
+      taken.set(`${dialect} ${repository}`, count);
+      return count <= MOST_OF_ONE;
+    });
+  const chosen = new Set(kept);
+  return candidates.filter(each => chosen.has(each));
 }
 
 function dialectFor(id: string): Dialect {
@@ -130,7 +158,11 @@ function dialectFor(id: string): Dialect {
 }
 
 /** As it is, with the files of its repository that it needs. */
-function opened(dialect: Dialect, root: string, path: string): Pick<Outcome, "opens" | "executes" | "fault" | "ms"> {
+function opened(
+  dialect: Dialect,
+  root: string,
+  path: string,
+): Pick<Outcome, "opens" | "executes" | "whole" | "fault" | "ms"> {
   const robot = LIBRARY.find(each => each.id === ROBOTS[dialect.id])!;
   const [repository = ""] = relative(root, path).split("/");
   const files = projectOf(dialect, join(root, repository));
@@ -147,7 +179,7 @@ function tryOpen(
   files: readonly TextFile[],
   main: string,
   robot: Robot,
-): Pick<Outcome, "opens" | "executes" | "fault"> {
+): Pick<Outcome, "opens" | "executes" | "whole" | "fault"> {
   const { text, place } = joinFiles(dialect, files, main);
   const faultOf = (faults: readonly TextFault[]): string => {
     const [first] = faults;
@@ -157,11 +189,16 @@ function tryOpen(
   };
   const interpreted = dialect.interpret(text, robot);
   if (interpreted.kind === "not-understood")
-    return { opens: false, executes: false, fault: faultOf(interpreted.faults) };
+    return { opens: false, executes: false, whole: false, fault: faultOf(interpreted.faults) };
   const executed = executeText(dialect, text, "public", robot, undefined, { maxSteps: 2000 });
   return executed.kind === "executed"
-    ? { opens: true, executes: executed.program.steps.some(({ type }) => type === "move"), fault: "" }
-    : { opens: false, executes: false, fault: faultOf(executed.faults) };
+    ? {
+        opens: true,
+        executes: executed.program.steps.some(({ type }) => type === "move"),
+        whole: !executed.notExecuted.some(({ expected }) => expected === NOT_GIVEN),
+        fault: "",
+      }
+    : { opens: false, executes: false, whole: false, fault: faultOf(executed.faults) };
 }
 
 /** The files of a language in a repository, named by their paths in it. */
@@ -186,17 +223,19 @@ function* filesIn(path: string): Generator<string> {
 }
 
 function print(all: readonly Outcome[]): void {
-  process.stdout.write("dialect        files   work: open, move / of   count: open, move / of   slowest ms\n");
+  process.stdout.write(
+    "dialect        files   work: open, move, whole / of   count: open, move, whole / of   slowest ms\n",
+  );
   for (const { id } of DIALECTS) {
     const own = all.filter(({ dialect }) => dialect === id);
     if (own.length === 0) continue;
     const share = (half: Outcome["half"]): string => {
       const of = own.filter(each => each.half === half);
-      const count = (which: "opens" | "executes"): number => of.filter(each => each[which]).length;
-      return `${count("opens")}, ${count("executes")} / ${of.length}`;
+      const count = (which: "opens" | "executes" | "whole"): number => of.filter(each => each[which]).length;
+      return `${count("opens")}, ${count("executes")}, ${count("whole")} / ${of.length}`;
     };
     process.stdout.write(
-      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(21)}   ${share("count").padStart(22)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
+      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(28)}   ${share("count").padStart(29)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
     );
   }
   if (rest.includes("--slow"))
@@ -217,6 +256,8 @@ interface Listed {
   readonly opens: boolean;
   /** Whether it then moves the robot: a file of routines that nobody calls does not. */
   readonly executes?: boolean;
+  /** Whether nothing was left out or taken for granted that only the controller knows. */
+  readonly whole?: boolean;
 }
 
 function write(all: readonly Outcome[]): void {
@@ -224,7 +265,7 @@ function write(all: readonly Outcome[]): void {
   const before = JSON.parse(readFileSync(url, "utf8")) as { readonly files: readonly Listed[] };
   const list: readonly Listed[] = [
     ...before.files.filter(({ dialect }) => !isCounted(dialect)),
-    ...all.map(({ dialect, repository, path, sha256, half, opens, executes }) => ({
+    ...all.map(({ dialect, repository, path, sha256, half, opens, executes, whole }) => ({
       dialect,
       repository,
       path,
@@ -232,6 +273,7 @@ function write(all: readonly Outcome[]): void {
       half,
       opens,
       executes,
+      whole,
     })),
   ].toSorted((a, b) => (keyOf(a) < keyOf(b) ? -1 : 1));
   const counts = Object.fromEntries(

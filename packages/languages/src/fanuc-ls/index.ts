@@ -16,7 +16,7 @@ export const fanucLs: Dialect = skippingDialect({
   id: "fanuc-ls",
   brand: "FANUC",
   name: "FANUC TP",
-  extensions: [".ls"],
+  extensions: [".ls", ".va"],
   maturity: "experimental",
   cannot: CANNOT,
   idioms: IDIOMS,

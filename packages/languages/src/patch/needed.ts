@@ -54,8 +54,30 @@ function rapidOffers(_file: PatchFile, code: string): string[] {
 }
 
 const LANGUAGES: Readonly<
-  Record<string, { readonly remark: string; readonly offers: (file: PatchFile, code: string) => string[] }>
+  Record<
+    string,
+    {
+      readonly remark: string;
+      readonly offers: (file: PatchFile, code: string) => string[];
+      /** Which words of a text may name another file; all of them where nothing is said. */
+      readonly words?: RegExp;
+    }
+  >
 > = {
+  "fanuc-ls": {
+    remark: "!",
+    offers: ({ name }) => (endingOf(name) === ".ls" ? [baseOf(name)] : []),
+    words: /\b(?:CALL|AUFRUF)[ \t]+([A-Za-z_][\w-]*)/gi,
+  },
+  inform: {
+    remark: "(?:^|[ \\t])'",
+    offers: ({ name }) => [baseOf(name)],
+    words: /\bJOB:([^\s'"=,()]+)/gi,
+  },
+  spel: {
+    remark: "'",
+    offers: (_, code) => all(code, /^[ \t]*Function[ \t]+(\w+)/gim),
+  },
   krl: { remark: ";", offers: krlOffers },
   rapid: { remark: "!", offers: rapidOffers },
   urscript: { remark: "#", offers: (_, code) => all(code, /^(?:def|thread)[ \t]+(\w+)[ \t]*\(/gm) },
@@ -70,9 +92,9 @@ const LOOKS = new WeakMap<PatchFile, Look>();
 function lookAt(language: string, file: PatchFile): Look {
   const before = LOOKS.get(file);
   if (before !== undefined) return before;
-  const { remark, offers } = LANGUAGES[language]!;
+  const { remark, offers, words = /([A-Za-z_$][\w$]*)/g } = LANGUAGES[language]!;
   const code = withoutRemarks(file.text, remark);
-  const look: Look = { offers: new Set(offers(file, code)), words: new Set(all(code, /([A-Za-z_$][\w$]*)/g)) };
+  const look: Look = { offers: new Set(offers(file, code)), words: new Set(all(code, words)) };
   LOOKS.set(file, look);
   return look;
 }
@@ -151,6 +173,9 @@ export function neededFiles(
 function isPartOf(language: string, part: PatchFile, file: PatchFile): boolean {
   if (folderOf(part.name) !== folderOf(file.name)) return false;
   if (language === "krl") return baseOf(part.name) === baseOf(file.name) && endingOf(part.name) === ".dat";
+  // Registers and points of the controller that a backup keeps beside its programs.
+  if (language === "fanuc-ls") return endingOf(part.name) === ".va";
+  if (language === "spel") return endingOf(part.name) === ".pts";
   if (language === "val3") return endingOf(part.name) === ".dtx";
   return false;
 }

@@ -12,7 +12,7 @@ export const spel: Dialect = skippingDialect({
   id: "spel",
   brand: "Epson",
   name: "SPEL+",
-  extensions: [".prg"],
+  extensions: [".prg", ".pts"],
   maturity: "experimental",
   cannot: CANNOT,
   idioms: IDIOMS,
