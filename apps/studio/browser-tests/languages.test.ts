@@ -2,7 +2,7 @@ import { ALL_DRIVER_KINDS } from "@twincell/controllers";
 import { LIBRARY } from "@twincell/core";
 import { CATALOGUE } from "@twincell/core/catalogue";
 import { DIALECTS } from "@twincell/languages";
-import { EXAMPLES, saveDocument, tracedCartonCell } from "@twincell/project";
+import { saveDocument, tracedCartonCell } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type {} from "../src/console.ts";
@@ -29,7 +29,6 @@ const DIALOGS = [
   "collision",
 ] as const;
 const CELL = tracedCartonCell();
-const OUT_OF_REACH = EXAMPLES.find(({ id }) => id === "07-line-out-of-reach")!.make();
 /** Names of things are data: they are the same in every language. */
 const NAMES = [
   ...JSON.stringify(CELL).matchAll(/"(?:name|id|tool|frame)":"([^"]+)"/g),
@@ -169,29 +168,4 @@ describe("the studio in another language", () => {
     );
     expect(size_m).toMatchObject({ kind: "box", size_m: [0.3125, expect.any(Number), expect.any(Number)] });
   }, 600_000);
-
-  test("what the check finds is German, with its numbers", async () => {
-    const { page } = await studio.open({ query: "?lang=de" });
-    await drawn(page);
-    await page.evaluate(text => window.twincell.document.open(text, "cell"), saveDocument(OUT_OF_REACH));
-    await page.evaluate(() => window.twincell.run("view.check"));
-    const card = page.locator(".why b").first();
-    await card.waitFor({ timeout: 120_000 });
-    expect(await card.textContent()).toMatch(/^(Das Handgelenk|Achse|Die Bahn|Bei|Am) .*\d+(,\d+)? ?(mm|°|%).*\.$/);
-  }, 300_000);
-
-  test("a language chosen in the menu is kept with the cell, and the page loads again in it", async () => {
-    const { page } = await studio.open();
-    await drawn(page);
-    expect(await page.evaluate(() => document.documentElement.lang)).toBe("en");
-    await page.evaluate(text => window.twincell.document.open(text, "cell"), saveDocument({ ...CELL, name: "Kept" }));
-    await page.getByRole("button", { name: "Twincell: Cell menu" }).click();
-    await page.getByRole("menuitem", { name: /^Language/ }).click();
-    const loaded = page.waitForEvent("load");
-    await page.getByRole("menuitemradio", { name: "Deutsch" }).click();
-    await loaded;
-    await drawn(page);
-    expect(await page.evaluate(() => document.documentElement.lang)).toBe("de");
-    expect(await page.getByRole("textbox", { name: "Name der Zelle" }).inputValue()).toBe("Kept");
-  }, 300_000);
 });
