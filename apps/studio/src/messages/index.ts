@@ -21,7 +21,9 @@ async function load(): Promise<Spoken> {
   }
   const { catalogue, sentences } = await translationOf(language);
   const say = translatorOf(sentences, decimalPoint());
-  return { words: wordsOf(en, catalogue, { locale: language, said: say }), say };
+  // What is put into a message is a name, or a sentence of a package: a person's "Tool" is called as they called it.
+  const said = (text: string): string => (/[.!?]$/.test(text) ? say(text) : text);
+  return { words: wordsOf(en, catalogue, { locale: language, said }), say };
 }
 
 const spoken = await load();

@@ -1,8 +1,15 @@
 import type { Sentences } from "../sentences.ts";
 import { saidByChecks } from "./said/checks.ts";
+import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidByRobots } from "./said/robots.ts";
 import { saidByTexts } from "./said/texts.ts";
 
 /** German: what packages say. */
-export const sentences: Sentences = { ...saidByChecks, ...saidByRobots, ...saidByReaders, ...saidByTexts };
+export const sentences: Sentences = {
+  ...saidByChecks,
+  ...saidByRobots,
+  ...saidByReaders,
+  ...saidByTexts,
+  ...saidByExport,
+};

@@ -99,12 +99,17 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
       return refusal(cause.fault);
     }
   }
-  function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
+  function executable(
+    script: Script<M>,
+    notes: Map<string, TextFault> = new Map(),
+  ): Extract<Interpreted, { kind: "ready" }> {
     const declared = createDeclaredCell();
     const run = function* (signals?: Signals): Generator<Executed, void> {
       const asked = new AskedSignals(signals);
       try {
-        yield* script.run(script.machine(declared, asked));
+        const machine = script.machine(declared, asked);
+        machine.notes = notes;
+        yield* script.run(machine);
       } catch (cause) {
         // What turns in a circle while inputs are looked at goes on when they change.
         if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
@@ -117,10 +122,12 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
     interpret(text, robot, worldFromBase = identity()): Interpreted {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
-      const ready = executable(opened.script);
+      const notes = new Map<string, TextFault>();
+      const ready = executable(opened.script, notes);
       const fault = dryRun({ [Symbol.iterator]: () => ready.run() });
       if (fault !== undefined) return refusal(fault);
-      return opened.kept.length === 0 ? ready : { ...ready, notExecuted: opened.kept };
+      const kept = [...opened.kept, ...notes.values()];
+      return kept.length === 0 ? ready : { ...ready, notExecuted: kept };
     },
     parse(text, robot, worldFromBase = identity()): ReadSteps {
       const opened = open(text, robot, worldFromBase);
@@ -132,10 +139,11 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         const outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
         const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine);
         const { groups, routines, pallets } = outline;
+        const kept = [...opened.kept, ...machine.notes.values()];
         return {
           kind: "parsed",
           executable: () => executable(opened.script),
-          warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
+          warnings: [...outline.warnings, ...kept, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...declared, groups, pallets, routines, steps },
         };
       } catch (cause) {
