@@ -1,5 +1,5 @@
 // npm run clients: third-party clients and parsers, which tests hold ours against, in a Python environment of their
-// own. Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI
+// own, and two brokers: mosquitto of the system and nats-server, which Go builds. Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI
 // installs them.
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -16,15 +16,20 @@ const stamp = `${folder}/.installed`;
 const MODULES = [
   "abb_robot_client.egm",
   "abb_robot_client.rws",
+  "asyncua",
   "fanuc_rmi",
   "jsonschema",
   "mcap_ros2.reader",
   "openapi_spec_validator",
+  "opentelemetry.proto.collector.trace.v1.trace_service_pb2",
+  "paho.mqtt.client",
   "pandas",
   "py_openshowvar",
+  "pymodbus.client",
   "pytest",
   "rapidchecker",
   "RSIPI",
+  "roslibpy",
   "rtde_control",
   "urx.urrtmon",
   "websockets",
@@ -61,11 +66,38 @@ export function installClients() {
   return undefined;
 }
 
-if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const problem = installClients();
-  if (problem !== undefined) {
-    console.error(problem);
-    process.exit(1);
+const NATS = "github.com/nats-io/nats-server/v2@v2.15.2";
+const brokers = `${root}.cache/brokers`;
+const has = command => spawnSync(command, ["-h"], { stdio: "ignore" }).error === undefined;
+
+/** Brings the brokers that are missing. Returns the sentences of what went wrong. */
+export function installBrokers() {
+  const problems = [];
+  const run = (command, args, env = {}) =>
+    spawnSync(command, args, { stdio: "inherit", env: { ...process.env, ...env } }).status === 0;
+  if (!existsSync(`${brokers}/nats-server${windows ? ".exe" : ""}`)) {
+    console.log("Building nats-server (once) …");
+    mkdirSync(brokers, { recursive: true });
+    const go = ["go", "/usr/local/go/bin/go"].find(each => spawnSync(each, ["version"]).status === 0);
+    if (go === undefined || !run(go, ["install", NATS], { GOBIN: brokers }))
+      problems.push(`nats-server is not there: it is built with \`go install ${NATS}\`, which needs Go.`);
   }
+  const mosquitto = ["mosquitto", "/usr/sbin/mosquitto", "/usr/local/sbin/mosquitto"];
+  if (!mosquitto.some(has)) {
+    const isRoot = process.getuid?.() === 0;
+    const installed =
+      isRoot &&
+      has("apt-get") &&
+      run("apt-get", ["update"]) &&
+      run("apt-get", ["install", "-y", "--no-install-recommends", "mosquitto"]);
+    if (!installed) problems.push("mosquitto is not there: install it with the packages of this system.");
+  }
+  return problems;
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const problems = [installClients(), ...installBrokers()].filter(problem => problem !== undefined);
+  for (const problem of problems) console.error(problem);
+  if (problems.length > 0) process.exit(1);
   console.log(`Third-party clients are in ${folder}.`);
 }

@@ -21,6 +21,9 @@ const REVIEWED = new Map([
   ["@react-three/handle", "MIT"],
   ["@react-three/uikit", "MIT"],
   ["@react-three/xr", "MIT"],
+  ["dequeue", "BSD-2-Clause"],
+  ["humanize", "MIT"],
+  ["precond", "MIT"],
   ["webgl-constants", "MIT"],
 ]);
 

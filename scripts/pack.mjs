@@ -13,8 +13,21 @@ import { thirdParty } from "./licences.mjs";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "out");
 const folder = join(out, "package");
-/** Loaded when somebody asks for physics or opens a STEP file; the command line says how to add them. */
-const OPTIONAL = ["@mujoco/mujoco", "occt-import-js"];
+/** Loaded when somebody asks for what needs them; the command line says how to add them. */
+const OPTIONAL = [
+  "@mujoco/mujoco",
+  "occt-import-js",
+  "node-opcua",
+  "mqtt",
+  "@opentelemetry/api",
+  "@opentelemetry/sdk-trace",
+  "@opentelemetry/resources",
+  "@opentelemetry/exporter-trace-otlp-http",
+  "@nats-io/transport-node",
+  "@nats-io/jetstream",
+  "@nats-io/kv",
+  "@simplewebauthn/server",
+];
 /** Types that the server knows how to unpack; smaller files are not worth it. */
 const PACKED = [".wasm", ".js", ".css", ".glb", ".json", ".svg"];
 const LEAST_BYTES = 4096;

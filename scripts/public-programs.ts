@@ -1,14 +1,19 @@
-// How many public vendor programs open as they are: npm run public-programs FOLDER [-- --write] [-- --faults krl]
+// How many public vendor programs open as they are, and how many of them then move the robot with every input off:
+// npm run public-programs FOLDER [-- --write] [-- --faults krl] [-- --only krl,rapid] [-- --slow]
+// [-- --work]: only the half to work on.
 //
 // FOLDER holds one folder a repository, named owner+name, with its files at their paths. Nothing is downloaded; without
 // the folder there is nothing to count. Files are split by hash: with --faults only those of the half to work on are
 // named, the other half is only counted. --write keeps counts, paths and hashes in docs/public-programs.json; texts
-// never.
+// never. With --only the languages named are counted and written, what was counted of the others stays.
+//
+// A file opens in its project: with the other files of its repository that it needs, as the studio and the command line
+// load them.
 import { createHash } from "node:crypto";
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, extname, join, relative } from "node:path";
-import { LIBRARY, type Dialect, type Robot } from "@twincell/core";
-import { DIALECTS, executeText, informDialect, joinFiles } from "@twincell/languages";
+import { LIBRARY, type Dialect, type Robot, type TextFault } from "@twincell/core";
+import { DIALECTS, NOT_GIVEN, executeText, informDialect, joinFiles } from "@twincell/languages";
 import { textFileOf, type TextFile } from "@twincell/project";
 
 /** Which dialect the words of a file belong to, its ending being shared by several. */
@@ -18,7 +23,7 @@ const SIGNS: readonly (readonly [id: string, endings: RegExp, words: RegExp])[] 
   ["inform", /\.jbi$/i, /^\/JOB/m],
   ["urscript", /\.(script|urscript)$/i, /\b(?:move[jlpc]|set_digital_out|def)\b/],
   ["fanuc-ls", /\.ls$/i, /^\s*\/PROG\b/im],
-  ["val3", /\.pgx$/i, /<Program/],
+  ["val3", /\.pgx$/i, /<program/i],
   ["kawasaki-as", /\.(as|pg)$/i, /^\s*\.PROGRAM\b/im],
   ["v-plus", /\.(v2|pg|v)$/i, /^\s*\.PROGRAM\b/im],
   ["spel", /\.prg$/i, /^\s*Function\s+\w+/im],
@@ -39,6 +44,9 @@ const MOTION: Readonly<Record<string, RegExp>> = {
   "melfa-basic": /^\s*(?:\d+\s+)?(?:Mov|Mvs|Mvr)\b/im,
   pacscript: /^\s*(?:Move|Approach|Depart|Drive)\b/im,
 };
+/** What a generator still has to fill in is no program: `%XCoord%` in RAPID, a lone `{}`, `{{ tcp }}`. */
+const TEMPLATE = /^[ \t]*\{\}[ \t]*$|^(?!\s*[;!#]).*%[A-Za-z]\w*%|\{\{.*\}\}/m;
+const FILLED: ReadonlySet<string> = new Set(["krl", "rapid", "urscript", "val3"]);
 /** A robot whose controller speaks the language: what opens does not hang on its dimensions. */
 const ROBOTS: Readonly<Record<string, string>> = {
   krl: "kuka_kr6r900sixx",
@@ -53,9 +61,15 @@ const ROBOTS: Readonly<Record<string, string>> = {
   "melfa-basic": "mitsubishi_rv7fl",
   pacscript: "denso_vs060",
 };
-/** Other files of the folder that are loaded with a program at most. */
-const MOST_SIBLINGS = 60;
+/**
+ * At most so many files of a language are counted of one repository, the first by hash: the backups of one plant hold
+ * thousands that are alike.
+ */
+const MOST_OF_ONE = 100;
+/** Larger files are no program. */
 const MOST_BYTES = 2_000_000;
+
+const PROJECTS = new Map<string, readonly TextFile[]>();
 
 interface Outcome {
   readonly dialect: string;
@@ -65,12 +79,18 @@ interface Outcome {
   readonly half: "work" | "count";
   readonly opens: boolean;
   readonly executes: boolean;
+  /** Nothing is left out or taken for granted that only the controller knows. */
+  readonly whole: boolean;
   readonly fault: string;
   readonly ms: number;
 }
 
 const [folder, ...rest] = process.argv.slice(2);
-const faultsOf = rest.includes("--faults") ? (rest[rest.indexOf("--faults") + 1] ?? "") : undefined;
+const option = (name: string): string | undefined =>
+  rest.includes(name) ? (rest[rest.indexOf(name) + 1] ?? "") : undefined;
+const faultsOf = option("--faults");
+const only = option("--only")?.split(",");
+const isCounted = (id: string): boolean => only === undefined || only.includes(id);
 if (folder === undefined || !existsSync(folder)) {
   process.stdout.write(
     folder === undefined
@@ -83,9 +103,16 @@ const outcomes = countAll(folder);
 print(outcomes);
 if (rest.includes("--write")) write(outcomes);
 
+interface Candidate {
+  readonly dialect: string;
+  readonly repository: string;
+  readonly path: string;
+  readonly sha256: string;
+}
+
 function countAll(root: string): readonly Outcome[] {
   const seen = new Set<string>();
-  const all: Outcome[] = [];
+  const found: Candidate[] = [];
   for (const path of filesIn(root)) {
     const known = SIGNS.filter(([, endings]) => endings.test(path));
     if (known.length === 0 || statSync(path).size > MOST_BYTES) continue;
@@ -94,20 +121,34 @@ function countAll(root: string): readonly Outcome[] {
     if (seen.has(sha256)) continue;
     const file = textFileOf(relative(dirname(path), path), bytes);
     const sign = known.find(([, , words]) => words.test(file.text));
-    if (sign === undefined || !MOTION[sign[0]]!.test(file.text)) continue;
+    if (sign === undefined || !isCounted(sign[0]) || !MOTION[sign[0]]!.test(file.text)) continue;
+    if (FILLED.has(sign[0]) && TEMPLATE.test(file.text)) continue;
     seen.add(sha256);
     const [repository = "", ...parts] = relative(root, path).split("/");
-    const half = Number.parseInt(sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count";
-    all.push({
-      dialect: sign[0],
-      repository: repository.replace("+", "/"),
-      path: parts.join("/"),
-      sha256,
-      half,
-      ...opened(dialectFor(sign[0]), path, file),
-    });
+    found.push({ dialect: sign[0], repository: repository.replace("+", "/"), path: parts.join("/"), sha256 });
   }
-  return all;
+  return evenly(found)
+    .map(
+      each => ({ ...each, half: Number.parseInt(each.sha256.slice(0, 2), 16) % 2 === 0 ? "work" : "count" }) as const,
+    )
+    .filter(({ half }) => half === "work" || !rest.includes("--work"))
+    .map(each => ({
+      ...each,
+      ...opened(dialectFor(each.dialect), root, join(root, each.repository.replace("/", "+"), each.path)),
+    }));
+}
+
+function evenly(candidates: readonly Candidate[]): readonly Candidate[] {
+  const taken = new Map<string, number>();
+  const kept = candidates
+    .toSorted((a, b) => (a.sha256 < b.sha256 ? -1 : 1))
+    .filter(({ dialect, repository }) => {
+      const count = (taken.get(`${dialect} ${repository}`) ?? 0) + 1;
+      taken.set(`${dialect} ${repository}`, count);
+      return count <= MOST_OF_ONE;
+    });
+  const chosen = new Set(kept);
+  return candidates.filter(each => chosen.has(each));
 }
 
 function dialectFor(id: string): Dialect {
@@ -116,47 +157,61 @@ function dialectFor(id: string): Dialect {
   return DIALECTS.find(dialect => dialect.id === id)!;
 }
 
-/** As it is with the file of its own name; with the folder's other files where the text alone names what is in them. */
-function opened(dialect: Dialect, path: string, file: TextFile): Pick<Outcome, "opens" | "executes" | "fault" | "ms"> {
+/** As it is, with the files of its repository that it needs. */
+function opened(
+  dialect: Dialect,
+  root: string,
+  path: string,
+): Pick<Outcome, "opens" | "executes" | "whole" | "fault" | "ms"> {
   const robot = LIBRARY.find(each => each.id === ROBOTS[dialect.id])!;
-  const started = performance.now();
-  const stem = stemOf(file.name);
-  const siblings = siblingsOf(dialect, path, file);
-  const own = siblings.filter(each => stemOf(each.name) === stem);
-  let answer = tryOpen(dialect, [file, ...own], robot);
-  if (!answer.opens && siblings.length > own.length) {
-    const whole = tryOpen(dialect, [file, ...siblings], robot);
-    if (whole.opens) answer = whole;
-  }
-  return { ...answer, ms: Math.round(performance.now() - started) };
+  const [repository = ""] = relative(root, path).split("/");
+  const files = projectOf(dialect, join(root, repository));
+  const name = relative(join(root, repository), path);
+  // Of the processor: other work on the machine is no part of it.
+  const started = process.cpuUsage();
+  const answer = tryOpen(dialect, files, name, robot);
+  const { user, system } = process.cpuUsage(started);
+  return { ...answer, ms: Math.round((user + system) / 1000) };
 }
 
 function tryOpen(
   dialect: Dialect,
   files: readonly TextFile[],
+  main: string,
   robot: Robot,
-): Pick<Outcome, "opens" | "executes" | "fault"> {
-  const { text } = joinFiles(dialect, files, files[0]!.name);
+): Pick<Outcome, "opens" | "executes" | "whole" | "fault"> {
+  const { text, place } = joinFiles(dialect, files, main);
+  const faultOf = (faults: readonly TextFault[]): string => {
+    const [first] = faults;
+    const at = place(first?.line ?? 1);
+    const file = files[at.file]?.name ?? "";
+    return `${file === main ? "" : `${file} `}line ${at.line}: ${first?.sentence}`;
+  };
   const interpreted = dialect.interpret(text, robot);
-  if (interpreted.kind === "not-understood") {
-    const [first] = interpreted.faults;
-    return { opens: false, executes: false, fault: `line ${first?.line}: ${first?.sentence}` };
-  }
+  if (interpreted.kind === "not-understood")
+    return { opens: false, executes: false, whole: false, fault: faultOf(interpreted.faults) };
   const executed = executeText(dialect, text, "public", robot, undefined, { maxSteps: 2000 });
   return executed.kind === "executed"
-    ? { opens: true, executes: executed.program.steps.some(({ type }) => type === "move"), fault: "" }
-    : { opens: false, executes: false, fault: `line ${executed.faults[0]?.line}: ${executed.faults[0]?.sentence}` };
+    ? {
+        opens: true,
+        executes: executed.program.steps.some(({ type }) => type === "move"),
+        whole: !executed.notExecuted.some(({ expected }) => expected === NOT_GIVEN),
+        fault: "",
+      }
+    : { opens: false, executes: false, whole: false, fault: faultOf(executed.faults) };
 }
 
-function siblingsOf(dialect: Dialect, path: string, { name }: TextFile): readonly TextFile[] {
-  return readdirSync(dirname(path))
-    .filter(each => each !== name && dialect.extensions.some(end => extname(each).toLowerCase() === end.toLowerCase()))
-    .slice(0, MOST_SIBLINGS)
-    .map(each => textFileOf(each, readFileSync(join(dirname(path), each))));
-}
-
-function stemOf(name: string): string {
-  return name.replace(/\.[^.]*$/, "").toLowerCase();
+/** The files of a language in a repository, named by their paths in it. */
+function projectOf(dialect: Dialect, repository: string): readonly TextFile[] {
+  const key = `${dialect.id} ${repository}`;
+  const known = PROJECTS.get(key);
+  if (known !== undefined) return known;
+  const endings = dialect.extensions.map(end => end.toLowerCase());
+  const files = [...filesIn(repository)]
+    .filter(path => endings.includes(extname(path).toLowerCase()) && statSync(path).size <= MOST_BYTES)
+    .map(path => textFileOf(relative(repository, path), readFileSync(path)));
+  PROJECTS.set(key, files);
+  return files;
 }
 
 function* filesIn(path: string): Generator<string> {
@@ -168,29 +223,63 @@ function* filesIn(path: string): Generator<string> {
 }
 
 function print(all: readonly Outcome[]): void {
-  process.stdout.write("dialect        files   work: open / of   count: open / of   slowest ms\n");
+  process.stdout.write(
+    "dialect        files   work: open, move, whole / of   count: open, move, whole / of   slowest ms\n",
+  );
   for (const { id } of DIALECTS) {
     const own = all.filter(({ dialect }) => dialect === id);
     if (own.length === 0) continue;
     const share = (half: Outcome["half"]): string => {
       const of = own.filter(each => each.half === half);
-      return `${of.filter(({ opens }) => opens).length} / ${of.length}`;
+      const count = (which: "opens" | "executes" | "whole"): number => of.filter(each => each[which]).length;
+      return `${count("opens")}, ${count("executes")}, ${count("whole")} / ${of.length}`;
     };
     process.stdout.write(
-      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(15)}   ${share("count").padStart(16)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
+      `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(28)}   ${share("count").padStart(29)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
     );
   }
+  if (rest.includes("--slow"))
+    for (const { repository, path, ms } of all.toSorted((a, b) => b.ms - a.ms).slice(0, 5))
+      process.stdout.write(`${ms} ms  ${repository}/${path}\n`);
   if (faultsOf === undefined) return;
   for (const { repository, path, fault, dialect, half } of all)
     if (half === "work" && fault !== "" && (faultsOf === "" || dialect === faultsOf))
       process.stdout.write(`${dialect}  ${repository}/${path}  ${fault}\n`);
 }
 
+interface Listed {
+  readonly dialect: string;
+  readonly repository: string;
+  readonly path: string;
+  readonly sha256: string;
+  readonly half: "work" | "count";
+  readonly opens: boolean;
+  /** Whether it then moves the robot: a file of routines that nobody calls does not. */
+  readonly executes?: boolean;
+  /** Whether nothing was left out or taken for granted that only the controller knows. */
+  readonly whole?: boolean;
+}
+
 function write(all: readonly Outcome[]): void {
+  const url = new URL("../docs/public-programs.json", import.meta.url);
+  const before = JSON.parse(readFileSync(url, "utf8")) as { readonly files: readonly Listed[] };
+  const list: readonly Listed[] = [
+    ...before.files.filter(({ dialect }) => !isCounted(dialect)),
+    ...all.map(({ dialect, repository, path, sha256, half, opens, executes, whole }) => ({
+      dialect,
+      repository,
+      path,
+      sha256,
+      half,
+      opens,
+      executes,
+      whole,
+    })),
+  ].toSorted((a, b) => (keyOf(a) < keyOf(b) ? -1 : 1));
   const counts = Object.fromEntries(
-    DIALECTS.filter(({ id }) => all.some(({ dialect }) => dialect === id)).map(({ id }) => {
-      const own = all.filter(({ dialect }) => dialect === id);
-      const half = (which: Outcome["half"]): { readonly files: number; readonly open: number } => {
+    DIALECTS.filter(({ id }) => list.some(({ dialect }) => dialect === id)).map(({ id }) => {
+      const own = list.filter(({ dialect }) => dialect === id);
+      const half = (which: Listed["half"]): { readonly files: number; readonly open: number } => {
         const of = own.filter(each => each.half === which);
         return { files: of.length, open: of.filter(({ opens }) => opens).length };
       };
@@ -201,15 +290,11 @@ function write(all: readonly Outcome[]): void {
     }),
   );
   const date = new Date().toISOString().slice(0, 10);
-  const list = all.map(({ dialect, repository, path, sha256, half, opens }) => ({
-    dialect,
-    repository,
-    path,
-    sha256,
-    half,
-    opens,
-  }));
   const lines = list.map(each => `    ${JSON.stringify(each)}`).join(",\n");
   const head = JSON.stringify({ date, counts }, undefined, 2).slice(0, -2);
-  writeFileSync(new URL("../docs/public-programs.json", import.meta.url), `${head},\n  "files": [\n${lines}\n  ]\n}\n`);
+  writeFileSync(url, `${head},\n  "files": [\n${lines}\n  ]\n}\n`);
+}
+
+function keyOf({ dialect, repository, path }: Listed): string {
+  return `${dialect} ${repository} ${path}`;
 }

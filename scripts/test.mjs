@@ -3,13 +3,15 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
 import { build, install, node, outFolder, root } from "./prepare.mjs";
 import { chromium } from "./chromium.mjs";
-import { clientsPython, installClients } from "./clients.mjs";
+import { clientsPython, installBrokers, installClients } from "./clients.mjs";
 import { EVIDENCE } from "./evidence/list.mjs";
 import { evidenceStates, stateSentence } from "./evidence/state.mjs";
 
 install();
 // In CI a client that is missing is a failure; elsewhere its tests say that they are skipped.
-const clientsProblem = process.env.CI ? installClients() : undefined;
+const clientsProblems = process.env.CI
+  ? [installClients(), ...installBrokers()].filter(problem => problem !== undefined)
+  : [];
 const out = outFolder();
 const browser = chromium();
 const bin = name => `node_modules/${name}`;
@@ -36,10 +38,8 @@ const stages = [
 ];
 
 const failed = [];
-if (clientsProblem !== undefined) {
-  console.log(clientsProblem);
-  failed.push("third-party clients");
-}
+for (const problem of clientsProblems) console.log(problem);
+if (clientsProblems.length > 0) failed.push("third-party clients");
 const python = process.env.TWINCELL_PYTHON ?? clientsPython();
 for (const [name, args] of stages) {
   console.log(`\n── ${name}`);

@@ -1,6 +1,7 @@
 import { fileURLToPath } from "node:url";
 import react from "@vitejs/plugin-react";
 import { defineConfig } from "vite";
+import { offlineStudio } from "./vite-offline.ts";
 import { controllerProfiles } from "./vite-profiles.ts";
 
 const empty = fileURLToPath(new URL("src/scene/xr/no-emulator.ts", import.meta.url));
@@ -11,7 +12,7 @@ const page = (path: string): string => fileURLToPath(new URL(path, import.meta.u
 export default defineConfig({
   root: fileURLToPath(new URL(".", import.meta.url)),
   base: "./",
-  plugins: [react(), controllerProfiles()],
+  plugins: [react(), controllerProfiles(), offlineStudio()],
   worker: { format: "es" },
   build: {
     target: "es2022",

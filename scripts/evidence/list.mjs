@@ -14,6 +14,7 @@ export const EVIDENCE = [
   soak("faults", ["packages/controllers/src"], "--keep"),
   soak("fuzz-dialects", languages),
   soak("fuzz-recordings", ["packages/recording/src"]),
+  soak("hostile-requests", ["apps/server/src/api", "apps/server/src/people", "apps/server/src/sockets"]),
   soak("ik-round-trips", ["packages/core/src/kinematics"]),
   soak("imports", languages),
   soak("jog-singular", ["packages/core/src/teach", "packages/core/src/kinematics"]),

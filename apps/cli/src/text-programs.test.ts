@@ -89,6 +89,36 @@ test("an archive is a folder: its one program opens as it is, of several one is 
   expect(twincell("check", at("broken.zip"), "--as-text", ...ROBOT, "--dialect", "krl")).toMatchObject({ code: 2 });
 });
 
+test("a program of a controller's backup runs with the routines and data of other folders that it names, and with no others", () => {
+  const r1 = join(folder, "backup", "KRC", "R1");
+  const write = (path: string, ...lines: string[]): void => {
+    mkdirSync(join(r1, path, ".."), { recursive: true });
+    writeFileSync(join(r1, path), `${lines.join("\r\n")}\r\n`);
+  };
+  write("Program/Jobs/main.src", "&ACCESS RVP", "DEF main( )", "PTP XHOME", "approach(turn)", "END");
+  write("Program/Lib/approach.src", "&ACCESS RVP", "DEF approach(by :IN)", "DECL REAL by", "PTP {A1 by}", "END");
+  write("Program/Lib/unnamed.src", "&ACCESS RVP", "DEF unnamed( )", "no statement at all", "END");
+  write(
+    "System/$config.dat",
+    "DEFDAT  $CONFIG",
+    "DECL E6AXIS XHOME={A1 0,A2 -90,A3 90,A4 0,A5 20,A6 0}",
+    "REAL turn=12.5",
+    "ENDDAT",
+  );
+  const main = join(r1, "Program", "Jobs", "main.src");
+  const checked = twincell("check", main, "--as-text", ...ROBOT);
+  expect(checked).toMatchObject({ code: 0 });
+  const { ok, steps } = JSON.parse(checked.out) as Judged;
+  expect(ok).toBe(true);
+  expect(steps.map(({ file, line }) => [file, line])).toEqual([
+    [main, 3],
+    [join(r1, "Program", "Lib", "approach.src"), 4],
+  ]);
+  const ran = twincell("run", main, ...ROBOT, "--period", "0.1");
+  const last = JSON.parse(ran.out.trim().split("\n").at(-1)!) as { readonly q: readonly number[] };
+  expect(Math.abs(last.q[0]!)).toBeCloseTo((12.5 / 180) * Math.PI, 6);
+});
+
 test("check --as-text says what is wrong with its file and line, and ends with 1", () => {
   const { code, err } = twincell("check", join(bad, "weld.src"), "--as-text", ...ROBOT);
   expect(code).toBe(1);

@@ -2,6 +2,7 @@ export { serve, type Served, type ServeOptions } from "./serve.ts";
 export { servePendant, type ServedPendant } from "./pendant.ts";
 export { addToken, readTokens, removeToken, ROLES, type Role } from "./people/tokens.ts";
 export { auditFile, openAuditLog, readAudit } from "./people/audit-log.ts";
+export { checkBackup, makeBackup, restoreBackup } from "./files/backup.ts";
 export { lanAddresses } from "./lan.ts";
 export { prepareJobInWorker } from "./stations/lay-out.ts";
 export { nodeNetwork } from "./sockets/node-network.ts";

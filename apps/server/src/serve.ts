@@ -2,6 +2,7 @@ import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
+import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
 import { apiHandlers } from "./api/handlers.ts";
@@ -19,11 +20,18 @@ import { recordServer } from "./stations/record-host.ts";
 import { openRoutes } from "./sockets/doors.ts";
 import { connectionRoute } from "./stations/socket.ts";
 import { videoRoute } from "./video/door.ts";
+import { hasAccounts, openAccounts, type Account, type Accounts } from "./people/accounts.ts";
 import { auditHost } from "./people/audit-host.ts";
 import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
+import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
+import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
+import type { StandardContext } from "./standards/standard.ts";
+import { joinFleet, ownFleet, type Fleet } from "./fleet/fleet.ts";
+import type { NatsOptions } from "./fleet/nats.ts";
+import { robotStates } from "./standards/robot-states.ts";
 
 export interface ServeOptions {
   /** Folder of the built studio. */
@@ -44,12 +52,22 @@ export interface ServeOptions {
   readonly connections?: string;
   /** What the studio is told it speaks with. */
   readonly version?: string;
+  /** People sign in by name; always so where the data folder has accounts. */
+  readonly accounts?: boolean;
+  /** A cluster of NATS servers that this server and others tell of their robots. */
+  readonly nats?: NatsOptions;
+  /** Standards of plants that are spoken besides the API. */
+  readonly standards?: StandardsOptions;
 }
 export interface Served {
   readonly url: string;
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** Where the first admin chooses a name and a password; null when there is one, or nobody signs in by name. */
+  readonly setUp: string | null;
+  /** Where each standard that was asked for is spoken. */
+  readonly standards: readonly string[];
   close(): Promise<void>;
 }
 
@@ -58,13 +76,14 @@ export async function serve(options: ServeOptions): Promise<Served> {
   // A file that cannot be read is said before anything listens.
   if (options.connections !== undefined) readConnections(options.connections);
   const addresses = options.lan ? lanAddresses() : [];
-  const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
+  const accounts = peopleOf(options);
+  const access = options.lan && !accounts ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
   const version = options.version ?? "";
-  const parts: { robots?: ApiRobots } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -77,9 +96,16 @@ export async function serve(options: ServeOptions): Promise<Served> {
   };
   const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
   const auditing = audit && auditHost(stations, audit, say);
+  const tokens = tokenReader(options.data, () => Date.now(), say);
+  const sessions = createSessions(() => nodeScheduler.now_s());
+  const signedIn = (cookies: string | undefined): Account | null => {
+    const name = sessions.nameOf(cookies);
+    return (name === null ? undefined : accounts?.find(name)) ?? null;
+  };
   const gate = createGate({
     access,
-    tokens: tokenReader(options.data, () => Date.now(), say),
+    tokens,
+    people: accounts && signedIn,
     audit,
     scheduler: nodeScheduler,
     onTrouble: say,
@@ -97,18 +123,28 @@ export async function serve(options: ServeOptions): Promise<Served> {
       data: options.data,
       requests: { byClass: counts },
       ready: () => ready,
+      fleet: () => parts.fleet!,
+      people: accounts && {
+        accounts,
+        sessions,
+        now_s: () => nodeScheduler.now_s(),
+        audit: (who, action, detail, done) =>
+          audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" }),
+      },
     }),
     headers: HEADERS,
     counts,
-    enter: (request, route) => gate.enter(request, route.access),
+    enter: (request, route, subject) => gate.enter(request, route.access, subject),
     audit,
+    observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
   const listener = studioListener(staticFiles(options.studio), hosts, access, api);
-  const server = options.lan
-    ? createHttps({ ...(await certificate(options.data, addresses)) }, listener)
-    : createHttp(listener);
+  const own = options.lan ? await certificate(options.data, addresses) : null;
+  const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
+  const states = robotStates(stations, () => Date.now(), say);
   const end = (): void => {
     ready = false;
+    states.close();
     robots.close();
     stations.close();
     programs.close();
@@ -116,12 +152,32 @@ export async function serve(options: ServeOptions): Promise<Served> {
     auditing?.();
     audit?.close();
   };
+  const host = options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1");
+  let standards: StartedStandards;
   try {
     await new Promise<void>((resolve, reject) => {
       server.once("error", reject);
-      server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
+      server.listen(options.port, host, resolve);
     });
+    const context: StandardContext = {
+      states,
+      robots,
+      scheduler: nodeScheduler,
+      now_ms: () => Date.now(),
+      version,
+      host,
+      hosts,
+      certificate: own,
+      enter: gate.enter,
+      tokens,
+      data: options.data,
+      say,
+    };
+    parts.fleet = options.nats ? await joinFleet(context, options.nats) : ownFleet(context);
+    standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
+    await parts.fleet?.close();
+    server.close();
     end();
     throw problem;
   }
@@ -142,27 +198,51 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations, gate.nameOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    [connectionRoute(stations, gate.nameOf, gate.roleOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
       stays: gate.stays,
       scheduler: nodeScheduler,
     },
   );
+  const close = async (): Promise<void> => {
+    // Robots first: what still moves is stopped before anything that could be waited for.
+    robots.stop("server", undefined, false);
+    restoring?.close();
+    recorder?.close();
+    await standards.close();
+    await parts.fleet?.close();
+    await new Promise<void>(resolve => {
+      end();
+      socket.close();
+      server.closeAllConnections();
+      server.close(() => {
+        resolve();
+      });
+    });
+  };
+  let closing: Promise<void> | null = null;
+  const first = accounts?.all.length === 0 ? accounts.invite(null, "admin") : null;
   return {
+    setUp:
+      first === null
+        ? null
+        : `${scheme}://${options.lan ? (addresses[0] ?? "localhost") : "localhost"}:${port}/?invitation=${first}`,
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
-    close: () =>
-      new Promise(resolve => {
-        restoring?.close();
-        recorder?.close();
-        end();
-        socket.close();
-        server.closeAllConnections();
-        server.close(() => {
-          resolve();
-        });
-      }),
+    standards: standards.addresses,
+    close: () => (closing ??= close()),
   };
+}
+
+/** The accounts of the data folder where people sign in by name, or null. */
+function peopleOf({ accounts, data }: ServeOptions): Accounts | null {
+  if (accounts === true && data === undefined)
+    throw new PlainFault(
+      "people.no-folder",
+      "Accounts are kept in a data folder.",
+      "Start the server with --data DIR.",
+    );
+  return data !== undefined && (accounts === true || hasAccounts(data)) ? openAccounts(data, () => Date.now()) : null;
 }

@@ -153,6 +153,7 @@ test("X-40 in the headset the picture hangs beside the twin; it goes grey when i
     )
     .toBeLessThan(0.5);
   await page.screenshot({ path: picture("headset-camera-still") });
+  await person.open("history");
   await person.press("right", "camera");
   await page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("camera-picture-0") === undefined);
   expect(problems).toEqual([]);
@@ -177,6 +178,7 @@ test("T-54 in the headset: travel back with ray, stick and keys; the robot stand
   }, now);
   const person = new Person(page);
   await person.enter(640, 320);
+  await person.open("history");
   await person.press("right", "history");
   await page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("past-line") !== undefined);
   await look(page, 35);

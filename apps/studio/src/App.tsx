@@ -12,6 +12,7 @@ import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
+import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
 import { Physics } from "./features/physics/Physics.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
@@ -23,6 +24,7 @@ import { TextSide } from "./features/text/TextSide.tsx";
 import { ProgramSwitch } from "./features/tree/ProgramSwitch.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
+import { SignIn } from "./features/people/SignIn.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
@@ -47,6 +49,7 @@ const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
+const People = lazy(() => import("./features/people/People.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
@@ -143,7 +146,9 @@ export function App() {
           </Suspense>
           {!phone && !building && <Coach />}
           <Welcome />
+          <SignIn />
           <Notices />
+          <UpdateBar />
           <span className="visually-hidden" id="reorder-hint">
             {words.tree.reorderHint}
           </span>
@@ -190,6 +195,7 @@ export function App() {
         </Suspense>
         <Suspense>
           <Cameras />
+          <People />
         </Suspense>
         <Files />
         <Shortcuts />

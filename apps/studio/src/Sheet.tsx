@@ -3,6 +3,7 @@ import { lazy, Suspense } from "react";
 import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
+import { PhoneTeach } from "./features/phone-teach/PhoneTeach.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { TextSide } from "./features/text/TextSide.tsx";
@@ -15,6 +16,7 @@ import { textOf } from "./stores/document.ts";
 import { traceStore } from "./stores/trace.ts";
 import { showMode, viewStore, type SheetTab, type StudioMode } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
+import { useMedia } from "./ui/useMedia.ts";
 import { words } from "./messages/index.ts";
 
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
@@ -32,6 +34,7 @@ export function Sheet() {
   const tracing = useStore(traceStore, state => state.active);
   const mode = useStore(viewStore, state => state.mode);
   const text = useStore(cellStore, state => textOf(state.document));
+  const touch = useMedia("(pointer: coarse)");
   return (
     <Tabs.Root
       className="area-sheet"
@@ -52,6 +55,7 @@ export function Sheet() {
       </Tabs.List>
       <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>
         {tracing && <TracePanel />}
+        {touch && !text && <PhoneTeach />}
         <Pendant />
         <SavedPoses />
       </Tabs.Content>

@@ -8,13 +8,16 @@ import { startFollowing } from "./runtime/robot/follow.ts";
 import { tick } from "./runtime/jog/jog-frames.ts";
 import { endInterpolation } from "./runtime/jog/joint-interpolation.ts";
 import { startHandPath } from "./runtime/jog/hand-path.ts";
+import { startOffline } from "./runtime/offline.ts";
 import { releaseAll } from "./runtime/jog/pressed-inputs.ts";
 import { startJogging } from "./runtime/jog/jogger.ts";
 import { hold, startPhysics } from "./runtime/physics/physics.ts";
 import { pause, startPlayhead } from "./runtime/history/playhead.ts";
 import { startRepairing } from "./runtime/planning/repairing.ts";
+import { lookForSession } from "./runtime/session.ts";
 import { startPreview } from "./runtime/planning/preview.ts";
 import { startTexts } from "./runtime/text-program.ts";
+import { cellStore } from "./stores/cell.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
 import { loadCatalogue } from "./stores/catalogue.ts";
 import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
@@ -38,6 +41,7 @@ const newCellId = (): string =>
 /** Starts everything that lives as long as the page. Nothing here waits for the 3D view. */
 export function boot(): void {
   keepPreferences(localStorage, matchMedia("(prefers-color-scheme: light)").matches);
+  void lookForSession();
   startFollowing();
   startPlayhead();
   startPhysics();
@@ -80,6 +84,11 @@ export function boot(): void {
     .catch((fault: unknown) =>
       notify("warn", words.robots.noCatalogue(fault instanceof Error ? fault.message : String(fault))),
     );
+  startOffline(async () => {
+    keepPresent();
+    await library.flush();
+    await saved();
+  });
   watchCollisions();
   startTexts();
   const checking = startChecking();
@@ -91,4 +100,21 @@ export function boot(): void {
     requestAnimationFrame(beat);
   };
   requestAnimationFrame(beat);
+}
+
+/** Resolves when everything that was done is on the disk; rejects where it cannot be kept. */
+function saved(): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const look = (): boolean => {
+      const { saving } = cellStore.getState();
+      if (saving.kind === "saved") resolve();
+      else if (saving.kind === "problem") reject(new Error(saving.sentence));
+      else return false;
+      return true;
+    };
+    if (look()) return;
+    const stop = cellStore.subscribe(() => {
+      if (look()) stop();
+    });
+  });
 }

@@ -14,10 +14,12 @@ import { controlStore } from "./stores/control.ts";
 import { dialogStore } from "./stores/dialogs.ts";
 import { commit, redo, showDocument, undo } from "./stores/document.ts";
 import { gamepadStore } from "./stores/gamepad.ts";
+import { headsetStore } from "./stores/headset.ts";
 import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
+import { offlineStore } from "./stores/offline.ts";
 import { physicsStore } from "./stores/physics.ts";
 import { playStore } from "./stores/play.ts";
 import { foreignStore } from "./stores/foreign.ts";
@@ -47,10 +49,12 @@ const twincell = {
     dialogStore,
     foreignStore,
     gamepadStore,
+    headsetStore,
     historyStore,
     jogStore,
     languageStore,
     noticeStore,
+    offlineStore,
     physicsStore,
     playStore,
     postStore,

@@ -263,6 +263,8 @@ export interface Dialect {
   readonly extensions: readonly string[];
   readonly maturity: "proven" | "experimental";
   readonly cannot: readonly { readonly what: Capability; readonly because: string }[];
+  /** What the language has no statement for and is written with those it has, as its programmers do. */
+  readonly idioms?: readonly Capability[];
   /** Where the language itself is coarser than the proof of its text is strict. */
   readonly resolution?: Resolution;
   /**

@@ -29,6 +29,7 @@ export { urScript } from "./urscript/index.ts";
 export { krl } from "./krl/index.ts";
 export { val3 } from "./val3/index.ts";
 export { vPlus } from "./v-plus/index.ts";
+export { NOT_GIVEN } from "./parser/index.ts";
 export * from "./prove.ts";
 export * from "./patch/index.ts";
 

@@ -6,8 +6,10 @@ import {
   flow,
   holds,
   identity,
+  lowered,
   millimetres,
-  type Condition,
+  type FlowOptions,
+  type Predicate,
   type Dialect,
   type EmittedFile,
   type Executed,
@@ -22,6 +24,7 @@ import {
   type Step,
   type TextFault,
 } from "@twincell/core";
+import { shareOf } from "./reading/trial-inputs.ts";
 import { PROOF_TOLERANCE } from "./reading/tolerance.ts";
 import { StepTips, stepDeviation, stepDifference } from "./reading/step-difference.ts";
 
@@ -66,8 +69,25 @@ export type Proof =
 const ROUNDS = 3;
 /** More steps than this are not compared. */
 const MOST_STEPS = 50_000;
-/** What inputs say while a text and its program are compared: nothing, everything, and now this, now that. */
-const TRIALS: readonly ((read: number) => boolean)[] = [() => false, () => true, read => (read * 7 + 3) % 5 < 2];
+/** Trials after the first two, in which all inputs are off and on: each input is now this, now that. */
+const DRAWN_TRIALS = 6;
+/** Trials of a program that computes nothing. */
+const SIMPLE_TRIALS = 3;
+/** Rounds of a loop, one after the other, in which it only looks again. */
+const MOST_STANDING = 1000;
+
+type Trial = (line: string, afterSteps: number) => boolean;
+/**
+ * What inputs say while a text and its program are compared. A level hangs on the line and on how many
+ * steps were done, so that both sides are told the same however often either of them asks.
+ */
+const TRIALS: readonly Trial[] = [
+  () => false,
+  () => true,
+  ...Array.from({ length: DRAWN_TRIALS }, (_, seed): Trial => {
+    return (line, after) => shareOf(seed + 1, `${after} ${line}`) >= 0.5;
+  }),
+];
 
 /**
  * Executes an emitted text and compares it, step by step, with the program it was made of: sort of step, path, tool tip
@@ -76,12 +96,13 @@ const TRIALS: readonly ((read: number) => boolean)[] = [() => false, () => true,
  * This proves the text, not the emitter's intention.
  */
 export function proveText(
-  dialect: Pick<Dialect, "interpret" | "resolution">,
+  dialect: Pick<Dialect, "interpret" | "resolution" | "idioms"> & Partial<Pick<Dialect, "cannot">>,
   file: { readonly name: string; readonly text: string },
-  program: Program,
+  taught: Program,
   robot: Robot,
   worldFromBase: Pose<"world", "base"> = identity(),
 ): Proof {
+  const program = lowered(taught, dialect);
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
     const fault = interpreted.faults[0]!;
@@ -92,9 +113,20 @@ export function proveText(
       sentence: `${file.name} stops in line ${fault.line}, column ${fault.column}: ${fault.sentence}`,
     };
   }
-  const decides = capabilitiesUsed(program).has("if");
+  // What is written here is carried out to the last statement: a controller's own values are all it may count on.
+  const kept = interpreted.notExecuted?.find(({ expected }) => expected !== "a value in the text");
+  if (kept !== undefined)
+    return {
+      kind: "not-executed",
+      file: file.name,
+      faults: [kept],
+      sentence: `${file.name} is not carried out as it stands in line ${kept.line}: ${kept.sentence}`,
+    };
+  const used = capabilitiesUsed(program);
+  const computes = used.has("while") || used.has("expression") || used.has("assign");
+  const trials = computes ? TRIALS.length : used.has("if") ? SIMPLE_TRIALS : 1;
   const steps: ProvenStep[] = [];
-  for (const trial of decides ? TRIALS : TRIALS.slice(0, 1)) {
+  for (const trial of TRIALS.slice(0, trials)) {
     try {
       const differs = compare(
         interpreted,
@@ -136,7 +168,7 @@ function compare(
   robot: Robot,
   worldFromBase: Pose<"world", "base">,
   resolution: Resolution,
-  trial: (read: number) => boolean,
+  trial: Trial,
   proven: ProvenStep[],
 ): Extract<Proof, { kind: "differs" }> | undefined {
   const tips = {
@@ -147,15 +179,31 @@ function compare(
   const angle_rad = Math.max(PROOF_TOLERANCE.angle_rad, resolution.angle_rad ?? 0);
   const wanted = program.signals;
   const done = interpreted.context.signals ?? {};
-  const text = steady(interpreted.run(new Told(trial)));
-  const told = new Told(trial);
+  const progress = { steps: 0 };
+  // Controllers know lines by their numbers, some by what they are called.
+  const isNamed = Object.values(done).some(({ address }) => address === undefined);
+  const keyIn =
+    (lines: Program["signals"]) =>
+    (name: string): string =>
+      isNamed ? plainName(name) : `${lines[name]?.kind ?? ""} ${lines[name]?.address ?? ""}`;
+  const text = steady(interpreted.run(new Told(trial, keyIn(done), progress)));
+  const told = new Told(trial, keyIn(wanted), progress);
   const forever = Array.from(everyStep(program)).some(step => step.type === "repeat" && step.times === "forever");
-  const decide = (when: Condition): boolean => holds(when, told);
-  let count = 0;
+  const options: FlowOptions = {
+    decide: (when: Predicate, variable) => holds(when, told, variable),
+    read: signal => told.read(signal),
+    ...(forever ? { rounds: ROUNDS } : {}),
+  };
   let ended = false;
-  const steps = following(flow(program, { decide, ...(forever ? { rounds: ROUNDS } : {}) }), told);
-  for (const [step, next] of steps) {
-    if (count++ >= MOST_STEPS) return undefined;
+  const steps = following(flow(program, options), told);
+  for (;;) {
+    const following = steps.next();
+    if (following.done === true) {
+      if (following.value === "left") return undefined;
+      break;
+    }
+    const [step, next] = following.value;
+    if (progress.steps >= MOST_STEPS) return undefined;
     const found = text.next();
     const differs = (sentence: string): Extract<Proof, { kind: "differs" }> => ({
       kind: "differs",
@@ -179,6 +227,7 @@ function compare(
       );
     proven.push({ id: step.id, line: found.line, deviation_m, deviation_rad });
     ended = step.type === "stop";
+    progress.steps++;
   }
   // A loop without end has been left on this side only.
   const extra = forever && !ended ? undefined : text.next();
@@ -192,6 +241,13 @@ function compare(
         sentence: `Line ${extra.line} does something after the last step.`,
       };
 }
+
+/** The beginning of a name, in the letters that every language keeps. */
+const plainName = (name: string): string =>
+  name
+    .toLowerCase()
+    .replaceAll(/[^a-z0-9]/g, "")
+    .slice(0, 8);
 
 /** The steps of an executed text, one by one. */
 function steady(run: Iterator<Executed, void>): { next(): { readonly line: number; readonly step: Step } | undefined } {
@@ -211,9 +267,14 @@ function steady(run: Iterator<Executed, void>): { next(): { readonly line: numbe
 function* following(
   happenings: Iterable<FlowEvent>,
   told: Told,
-): Generator<readonly [PrimitiveStep, PrimitiveStep | undefined], void> {
+): Generator<readonly [PrimitiveStep, PrimitiveStep | undefined], "ended" | "left"> {
   let before: PrimitiveStep | undefined;
+  let standing = 0;
   for (const happening of happenings) {
+    if (happening.kind === "failed") {
+      if (before !== undefined) yield [before, undefined];
+      return "left";
+    }
     if (happening.kind !== "step") {
       if (happening.kind === "passed" && happening.step.type !== "comment" && before !== undefined) {
         yield [before, undefined];
@@ -222,23 +283,29 @@ function* following(
       continue;
     }
     const { step, stands } = happening;
+    standing = stands ? standing + 1 : 0;
+    if (standing > MOST_STANDING) return "left";
     if (step.type === "set") told.write(step.signal, step.to);
     if (before !== undefined) yield [before, stands ? undefined : step];
     before = stands ? undefined : step;
   }
   if (before !== undefined) yield [before, undefined];
+  return "ended";
 }
 
-/** Inputs that say what a trial says, the same for the n-th question whoever asks; outputs are what was written. */
+/** Inputs that say what a trial says; outputs are what was written. */
 class Told implements Signals {
-  private readonly trial: (read: number) => boolean;
+  private readonly trial: Trial;
+  private readonly keyOf: (signal: string) => string;
+  private readonly progress: { readonly steps: number };
   private readonly written = new Map<string, boolean | number>();
-  private reads = 0;
-  constructor(trial: (read: number) => boolean) {
+  constructor(trial: Trial, keyOf: (signal: string) => string, progress: { readonly steps: number }) {
     this.trial = trial;
+    this.keyOf = keyOf;
+    this.progress = progress;
   }
   read(signal: string): boolean | number {
-    return this.written.get(signal) ?? this.trial(this.reads++);
+    return this.written.get(signal) ?? this.trial(this.keyOf(signal), this.progress.steps);
   }
   write(signal: string, value: boolean | number): void {
     this.written.set(signal, value);

@@ -116,3 +116,188 @@ test("weaving changes the path and is refused with its line", () => {
     places(run(listing("WEAVE", ["  Weave Sine[1]    ;", "L P[1] 100mm/sec FINE    ;"], [position(1, 400)]))),
   ).toBe('line 3: "WEAVE" is no statement of TP that is executed here.');
 });
+
+/** What a run does, a word a step: the place [mm] of a motion, a line and its value, a wait. */
+function told(answer: ReturnType<typeof executeText>): unknown {
+  if (answer.kind === "not-understood") return `line ${answer.faults[0]!.line}: ${answer.faults[0]!.sentence}`;
+  return answer.program.steps.map(step => {
+    switch (step.type) {
+      case "move": {
+        if (!("pose" in step.target)) return step.target.q.map(rad => Math.round((rad * 180e3) / Math.PI) / 1e3 + 0);
+        const [x, y, z] = step.target.pose.position;
+        return [x, y, z - ZERO_Z_M].map(m => Math.round(m * 1e6) / 1e3 + 0).join(" ");
+      }
+      case "set":
+        return `${step.signal}=${String(step.to)}`;
+      case "wait":
+        return `wait ${step.s}`;
+      case "wait-for":
+        return `until ${step.when.signal}`;
+      default:
+        return step.type;
+    }
+  });
+}
+const notices = (answer: ReturnType<typeof executeText>): unknown =>
+  answer.kind === "executed" && answer.notExecuted.map(({ line, sentence }) => `${line}: ${sentence}`);
+const joints = (number: number, deg: readonly number[]): string =>
+  [
+    `P[${number}]{`,
+    "   GP1:",
+    "	UF : F, UT : F,",
+    ...[0, 3].map(from => `	${[0, 1, 2].map(i => `J${from + i + 1}= ${deg[from + i]} deg`).join(",	")},`),
+    "};",
+  ].join("\n");
+
+test("machine tending: the logic of a point is done when the point is reached, in the order of its lines, in English and in German", () => {
+  const english = listing(
+    "TEND",
+    [
+      "  UTOOL_NUM=0 ;",
+      "J P[1] 50% CNT0 ACC100 TB   0.00sec,P-SPS    ;\n      1:  DO[15:door]=ON ;\n      2:  WAIT (DI[9])    ;\n       ------ ;",
+      "  F[3:loaded]=(ON) ;",
+      "  IF (F[3] AND !DI[4]),CALL LEAVE ;",
+      "  JMP LBL[1] ;",
+      "L P[3] 100mm/sec FINE    ;",
+      "  LBL[1] ;",
+    ],
+    [position(1, 400), position(3, 300)],
+  );
+  const leave = listing("LEAVE", ["L P[2] max_speed FINE DB   5.0mm,DO[16]=OFF    ;"], [position(2, 450)]);
+  const german = english
+    .replace("/MN", "/ATTR\nEIGN.\t\t= MNEDITOR;\n/MN")
+    .replace("UTOOL_NUM", "WKZ_NUM")
+    .replace("TB   0.00sec", "ZEIT VOR   0.00sek")
+    .replace("DO[15:door]=ON", "A[15:door]=AN")
+    .replace("WAIT (DI[9])", "WARTE (E[9])")
+    .replace("(ON)", "(AN)")
+    .replace("IF (F[3] AND !DI[4]),CALL", "WENN (F[3] [&] !E[4]),AUFRUF")
+    .replace("JMP LBL[1]", "SPRUNG LABEL[1]")
+    .replace("  LBL[1] ;", "  LABEL[1] ;");
+  const wanted = ["400 0 100", "door=true", "until DI[9]", "450 0 100", "DO[16]=false"];
+  expect(told(run(english + leave))).toEqual(wanted);
+  expect(told(run(german + leave))).toEqual(wanted);
+  expect(notices(run(english + leave))).toEqual([
+    expect.stringMatching(/: DB 5mm: what is done about the point is done when it is reached\.$/),
+  ]);
+});
+
+test("palletising: register values come from the backup's .va files; PR in joint angles, offsets from R, a label that is worked out", () => {
+  const text =
+    listing(
+      "STACK",
+      [
+        "J PR[1:HOME] 20% FINE    ;",
+        "  FOR R[5]=1 TO 2 ;",
+        "  PR[2,1]=R[5]*R[7:pitch]    ;",
+        "L P[1] R[8]mm/sec FINE Offset,PR[2]    ;",
+        "  ENDFOR ;",
+        "  JMP LBL[R[9]] ;",
+        "  LBL[1] ;",
+        "L P[2] 100mm/sec FINE    ;",
+        "  LBL[2] ;",
+        "  RO[2]=(R[5]>5) ;",
+      ],
+      [position(1, 300), position(2, 450)],
+    ) +
+    [
+      "[*NUMREG*]$NUMREG  Storage: CMOS  Access: RW  : ARRAY[200] OF Numeric Reg",
+      "  [7] = 40.5  'pitch' ",
+      "  [8] = 250  '' ",
+      "  [9] = 2  '' ",
+      "[*POSREG*]$POSREG  Storage: CMOS  Access: RW  : ARRAY[1,100] OF Position Reg",
+      "    [1,1] =   'HOME J1 = 9'   Group: 1",
+      "  J1 =    10.000 deg   J2 =   -20.000 deg   J3 =    30.000 deg ",
+      "  J4 =     0.000 deg   J5 =   -60.000 deg   J6 =     0.000 deg ",
+      "    [1,2] =   '' ",
+      "  Group: 1   Config: N U T, 0, 0, 0",
+      "  X:     0.000   Y:     0.000   Z:    15.000",
+      "  W:     0.000   P:     0.000   R:     0.000",
+      "    [1,3] =   '' Uninitialized",
+      "",
+    ].join("\n");
+  const answer = run(text);
+  // J3 is shown against the horizon: joint 3 is 30 − 20.
+  expect(told(answer)).toEqual([[10, -20, 10, 0, -60, 0], "340.5 0 115", "381 0 115", "RO[2]=false"]);
+  expect(answer.kind === "executed" && answer.program.steps[1]).toMatchObject({ speed: { mps: 0.25 } });
+  expect(notices(answer)).toEqual([]);
+});
+
+test("what only the controller knows is named with its line: a motion to it is left out, and what counts from there too", () => {
+  const statements = [
+    "J PR[4:PARK] 20% FINE    ;",
+    "L P[1] 100mm/sec FINE INC    ;",
+    "L P[2] WELD_SPEED CNT100    ;",
+    "L P[1] 100mm/sec FINE INC    ;",
+    "  CALL GRIP(1,'soft') ;",
+    "  PR[5]=LPOS    ;",
+    "  IF R[6:parts]=0,JMP LBL[1] ;",
+    "L P[2] 100mm/sec FINE    ;",
+    "  LBL[1] ;",
+    "L PR[5] 100mm/sec FINE    ;",
+    "J P[3] 10% FINE    ;",
+  ];
+  const answer = run(
+    listing("LOAD", statements, [
+      position(1, 30).replace("Z = 100", "Z = -5").replace("W = 180", "W = 0"),
+      position(2, 400),
+      joints(3, [0, 0, 0, 0, -90, 0]),
+    ]),
+  );
+  expect(told(answer)).toEqual(["400 0 100", "430 0 95", [0, 0, 0, 0, -90, 0]]);
+  expect(notices(answer)).toEqual([
+    "3: PR[4] (PARK) is in none of the files: the motion is not executed.",
+    "4: Where the robot stands before it is not known: the motion is not executed.",
+    "5: The speed of line 5 is in none of the files: it is planned at 10 mm/s.",
+    "7: The program GRIP is not among the files: what it does, motions too, is not executed.",
+    "9: R[6] (parts) is in none of the files: it is taken as 0.",
+    "12: PR[5] is in none of the files: the motion is not executed.",
+  ]);
+  // Kept as steps nothing of it may be guessed.
+  expect(fanucLs.parse(listing("LOAD", ["J PR[4:PARK] 20% FINE    ;"]), robot)).toMatchObject({
+    kind: "not-understood",
+  });
+});
+
+test("Skip, SkipJump and TIMEOUT lead to their labels when the line says so", () => {
+  const statements = [
+    "  SKIP CONDITION DI[1]=ON    ;",
+    "L P[1] 100mm/sec FINE Skip,LBL[5]    ;",
+    "  DO[1]=ON ;",
+    "  LBL[6] ;",
+    "L P[2] 100mm/sec FINE SkipJump,LBL[7]    ;",
+    "  $WAITTMOUT=200 ;",
+    "  WAIT DI[2]=ON TIMEOUT,LBL[7]    ;",
+    "  DO[2]=ON ;",
+    "  END ;",
+    "  LBL[5] ;",
+    "  DO[5]=ON ;",
+    "  JMP LBL[6] ;",
+    "  LBL[7] ;",
+    "  DO[7]=ON ;",
+  ];
+  const text = listing("SEEK", statements, [position(1, 400), position(2, 450)]);
+  const given = (inputs: Readonly<Record<string, boolean>>): unknown =>
+    told(executeText(fanucLs, text, "cell", robot, undefined, { inputs }));
+  const looked = Array.from({ length: 10 }, () => "wait 0.2");
+  // Nothing comes: the first search goes to 5, the second on, the wait to 7 after 2 s.
+  expect(given({})).toEqual(["400 0 100", "DO[5]=true", "450 0 100", ...looked, "DO[7]=true"]);
+  expect(given({ "DI[2]": true })).toEqual(["400 0 100", "DO[5]=true", "450 0 100", "wait 0", "DO[2]=true"]);
+  expect(given({ "DI[1]": true })).toEqual(["400 0 100", "DO[1]=true", "450 0 100", "DO[7]=true"]);
+});
+
+test("a jump to a label that is not there, and a tool that stands in the cell, are refused with their lines", () => {
+  expect(told(run(listing("LOST", ["  JMP LBL[3] ;"])))).toMatch(/^line 3: A jump goes to the label 3/);
+  const remote = position(1, 400).replace("X =", "RX =").replace("Y =", "RY =").replace("Z =", "RZ =");
+  expect(
+    told(
+      run(
+        listing(
+          "GRIND",
+          ["L P[1] 100mm/sec FINE RTCP    ;"],
+          [remote.replace("W =", "RW =").replace("P =", "RP =").replace("R = 0", "RR = 0")],
+        ),
+      ),
+    ),
+  ).toMatch(/^line 3: P\[1\] was taught with a tool that stands in the cell/);
+});

@@ -11,13 +11,19 @@ const PATHS: readonly { readonly path: MoveStep["path"]; readonly title: string 
 const CAPABILITIES: readonly { readonly title: string; readonly all: readonly Capability[] }[] = [
   { title: "loops", all: ["repeat"] },
   { title: "decisions", all: ["if"] },
+  { title: "loops with a condition", all: ["while"] },
+  { title: "variables", all: ["assign"] },
+  { title: "expressions", all: ["expression"] },
   { title: "calls", all: ["call"] },
+  { title: "arguments", all: ["arguments"] },
   { title: "pallets", all: ["pallet"] },
   { title: "digital out", all: ["set-digital"] },
   { title: "pulse", all: ["pulse"] },
   { title: "analogue out", all: ["set-analogue"] },
   { title: "wait for a line", all: ["wait-for"] },
+  { title: "for an expression", all: ["wait-expression"] },
   { title: "with a time limit", all: ["timeout"] },
+  { title: "steps when late", all: ["late"] },
   { title: "analogue in", all: ["read-analogue"] },
   { title: "search", all: ["search"] },
   { title: "load", all: ["payload"] },
@@ -28,8 +34,9 @@ const CAPABILITIES: readonly { readonly title: string; readonly all: readonly Ca
 ];
 
 /**
- * What each dialect declares, as tables in Markdown. What one cannot do stands below with its reason, in the words a
- * user sees.
+ * What each dialect declares, as tables in Markdown. What is written with other statements, as
+ * programmers of the language do, is marked ≈; what one cannot do stands below with its reason, in the words a user
+ * sees.
  */
 export function vendorTables(dialects: readonly Dialect[]): string {
   const head = [
@@ -58,11 +65,13 @@ export function vendorTables(dialects: readonly Dialect[]): string {
   const can = [
     ["language", ...CAPABILITIES.map(({ title }) => title)],
     ["---", ...CAPABILITIES.map(() => "---")],
-    ...dialects.map(({ name, cannot, lines }) => [
+    ...dialects.map(({ name, cannot, idioms = [], lines }) => [
       name,
       ...CAPABILITIES.map(({ all }) =>
         (all.length === 0 ? lines !== undefined : all.every(each => cannot.every(({ what }) => what !== each)))
-          ? "✓"
+          ? all.some(each => idioms.includes(each))
+            ? "≈"
+            : "✓"
           : "–",
       ),
     ]),

@@ -78,3 +78,21 @@ test("programs are copied, renamed and taken out; names stay unique and one is a
   expect(cell.programs.length).toBe(1);
   expect(selectedProgram(cell)!.steps).toEqual([]);
 });
+
+test("a cell says version 2 of its programs that compute, and version 1 of the others, as before", () => {
+  const plain = taught("Plain", 0.1);
+  const computes: Program = {
+    ...taught("Computes", 0.1),
+    variables: { count: { type: "int" } },
+    steps: [{ id: "a", type: "assign", variable: "count", to: { op: "+", of: [{ variable: "count" }, 1] } }],
+  };
+  const cell = addProgram(addProgram(emptyCell(), plain), computes);
+  const again = saved(cell);
+  expect(again.programs.map(({ name, version }) => [name, version])).toEqual(
+    expect.arrayContaining([
+      ["Plain", 1],
+      ["Computes", 2],
+    ]),
+  );
+  expect(saveDocument(again)).toBe(saveDocument(cell));
+});

@@ -1,3 +1,4 @@
+import { versionOf } from "@twincell/core";
 import type { CellDocument } from "./document.ts";
 
 /**
@@ -49,10 +50,16 @@ const FIRST = [
 const LINE = 140;
 
 /**
- * The document as text: stable key order, two blanks of indentation, short lists on one line, a line end at the end.
+ * The document as text: stable key order, two blanks of indentation, short lists on one line, a line end at the end. A
+ * program says the lowest version that can say it.
  */
 export function saveDocument(document: CellDocument): string {
-  return `${written(document, "")}\n`;
+  const programs = document.programs.map(program => {
+    if (!("steps" in program)) return program;
+    const version = versionOf(program);
+    return version === program.version ? program : { ...program, version };
+  });
+  return `${written({ ...document, programs }, "")}\n`;
 }
 
 function written(value: unknown, indent: string): string {

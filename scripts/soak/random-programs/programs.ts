@@ -54,7 +54,7 @@ export interface Only {
 }
 
 /** One to three moves to random joint angles: by joints, by a line or along an arc, at a random speed, some rounded. */
-export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, onlyJoints: boolean, random: Random): Program {
+export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, only: Only, random: Random): Program {
   const steps: MoveStep[] = [];
   let at = Array.from(from_rad);
   const near = (q: readonly number[], most_rad: number): number[] =>

@@ -1,5 +1,6 @@
 import type { Command } from "../io/usage.ts";
 import { auditCommand } from "./audit.ts";
+import { backupCommand } from "./backup.ts";
 import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
@@ -62,5 +63,6 @@ export const COMMANDS: readonly Command[] = [
   doctorCommand,
   tokenCommand,
   auditCommand,
+  backupCommand,
   benchCommand,
 ];

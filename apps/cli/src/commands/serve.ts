@@ -4,6 +4,7 @@ import { spawn } from "node:child_process";
 import { serve, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
 import { given } from "../io/arguments.ts";
+import { checkPort, NATS_OPTIONS, natsOf, STANDARD_OPTIONS, standardsOf } from "../io/standards.ts";
 import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
@@ -13,7 +14,9 @@ const studio = studioFolder();
 export const serveCommand: Command = {
   name: "serve",
   summary: "serve the studio on this machine, or on the local network with --lan",
-  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--training] [--open]
+  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--accounts] [--training] [--open]
+               [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
+               [--webhooks FILE] [--otlp URL] [--nats HOST:PORT,… --site NAME [--nats-replicas N] [--nats-hours H]]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
@@ -21,6 +24,15 @@ export const serveCommand: Command = {
   --robots A,B the only addresses of real controllers; without it every address, with --lan none but this machine
   --connections FILE  robots to open and connect when it starts; without it connections.json of --data, where there is one. Written by
                twincell connect --save: {"format":"twincell.connections","version":1,"robots":[{"id","driver","model","address":{"host","ports"},"cell","watch"}]}
+  --opcua P, --rosbridge P, --foxglove P, --modbus P
+               also speaks OPC UA (robotics companion model), rosbridge v2, Foxglove WebSocket, Modbus TCP on that port (docs/plant.md); 0 takes a free one
+  --modbus-lines FILE  which lines are at which Modbus address: {"format":"twincell.modbus","version":1,"robots":{"arm":["in_1",…]}}
+  --sparkplug URL  tells an MQTT broker (mqtt://host:1883) of every robot as Sparkplug B; --sparkplug-node GROUP/NODE (default plant/twincell)
+  --webhooks FILE  addresses that are told what happens: {"format":"twincell.webhooks","version":1,"hooks":[{"url","events","robot","secret"}]}
+  --otlp URL   sends traces to an OpenTelemetry collector (http://host:4318)
+  --accounts   people sign in by name (needs --data); the first start prints a link that works once and makes the first admin
+  --nats A,B,C --site NAME  tells a NATS cluster (host:port) of its robots under that name and hears of those of others (docs/scale.md);
+               --nats-replicas N copies of what is kept (default 1; 3 in a cluster of three), --nats-hours H how long states are kept (default 168)
   --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
@@ -29,14 +41,16 @@ export const serveCommand: Command = {
       data: { type: "string" },
       lan: { type: "boolean" },
       robots: { type: "string" },
+      accounts: { type: "boolean" },
       training: { type: "boolean" },
       connections: { type: "string" },
       open: { type: "boolean" },
+      ...STANDARD_OPTIONS,
+      ...NATS_OPTIONS,
     });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
     const port = options.number("port");
-    if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port <= 65535))
-      throw new UseFault(`--port wants a whole number from 0 to 65535, not ${port}.`);
+    checkPort("port", port);
     if (!existsSync(`${studio}/index.html`))
       throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
 
@@ -53,10 +67,13 @@ export const serveCommand: Command = {
         studio,
         port: port ?? DEFAULT_PORT,
         lan: options.flag("lan"),
+        accounts: options.flag("accounts"),
         training: options.flag("training"),
         ...(robots === undefined ? {} : { robots }),
         ...(connections === undefined ? {} : { connections }),
         ...(data === undefined ? {} : { data }),
+        standards: standardsOf(options),
+        ...natsOf(options),
       },
       port === undefined,
     );
@@ -67,6 +84,8 @@ export const serveCommand: Command = {
       process.stdout.write(
         `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
       );
+    if (served.setUp !== null) process.stdout.write(`Set up the first admin, once: ${served.setUp}\n`);
+    for (const address of served.standards) process.stdout.write(`${address}\n`);
     process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
     if (options.flag("open")) openBrowser(served.url);
 

@@ -1,5 +1,5 @@
 import { readdir, readFile, stat } from "node:fs/promises";
-import { basename, dirname, join } from "node:path";
+import { basename, dirname, join, relative, sep } from "node:path";
 import { inflateRawSync } from "node:zlib";
 import type { Dialect, TextFault } from "@twincell/core";
 import { readZip } from "@twincell/formats";
@@ -23,7 +23,8 @@ export interface TextProject {
 /**
  * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a
  * file are found beside it: those of the same name with another ending of the language (program.src has its
- * program.dat). A ZIP archive stands for the one program in it, and is a folder in a path: backup.zip/R1/weld.src.
+ * program.dat), and what else of the controller's backup around it the program names. A ZIP archive stands for the one
+ * program in it, and is a folder in a path: backup.zip/R1/weld.src.
  */
 export async function textProject(paths: readonly string[], language: string | undefined): Promise<TextProject> {
   const [first] = paths;
@@ -45,9 +46,17 @@ export async function textProject(paths: readonly string[], language: string | u
   const all = new Set(whole.filter(path => speaks(dialect, path) || paths.includes(path)));
   for (const archive of paths.filter(path => archives.has(path))) onlyProgram(archive, [...all]);
   for (const path of [...all]) for (const sibling of await siblingsOf(path, dialect, archives)) all.add(sibling);
+  const around = await aroundOf([...all][0]!, dialect, archives);
+  const nameOf = (path: string): string =>
+    around === undefined || !path.startsWith(around.root) ? basename(path) : relative(around.root, path);
   const read = await Promise.all(
-    [...all].map(async path => ({ path, file: textFileOf(basename(path), await bytesOf(path, archives)) })),
+    [...all].map(async path => ({ path, file: textFileOf(nameOf(path), await bytesOf(path, archives)) })),
   );
+  for (const path of around?.paths ?? []) {
+    if (all.has(path)) continue;
+    const file = await textBeside(path, nameOf(path), archives);
+    if (file !== undefined) read.push({ path, file });
+  }
   const twice = read.find(({ file }, i) => read.findIndex(each => each.file.name === file.name) < i);
   if (twice) throw new UseFault(`Two files are called ${twice.file.name}.`, "Give the files of one program.");
   const given = read.filter(({ path }) => paths.includes(path)).map(({ file }) => file);
@@ -187,6 +196,56 @@ async function siblingsOf(path: string, dialect: Dialect, archives: Archives): P
   return beside.filter(
     each => stemOf(each) === stemOf(path) && speaks(dialect, each) && each !== path && each !== join(path),
   );
+}
+
+/** Larger files, and more of them, are no program's. */
+const MOST_BYTES = 2_000_000;
+const MOST_AROUND = 2000;
+
+/**
+ * Where the project of a file begins, and its files of the language: the folder R1 of a KUKA controller, the task of an
+ * ABB one, the folder of a file elsewhere. Which of them are loaded is decided by what the program names.
+ */
+async function aroundOf(
+  path: string,
+  dialect: Dialect,
+  archives: Archives,
+): Promise<{ readonly root: string; readonly paths: readonly string[] } | undefined> {
+  if (!WITH_PROJECTS.has(dialect.id) || path === "-") return undefined;
+  const parts = path.split(/[/\\]/);
+  const inR1 = parts.findLastIndex(part => /^R1$/i.test(part));
+  const isModule = /^(?:PROG|SYS)MOD$/i.test(basename(dirname(path)));
+  const root =
+    dialect.id === "krl" && inR1 > 0
+      ? parts.slice(0, inR1 + 1).join(sep)
+      : dialect.id === "rapid" && isModule
+        ? dirname(dirname(path))
+        : dirname(path);
+  const packed = await archives.open(root);
+  const all = packed
+    ? archives.filesOf(packed.archive).filter(each => each.startsWith(root))
+    : (await readdir(root, { recursive: root !== dirname(path) }).catch(() => [])).map(name => join(root, name));
+  return {
+    root,
+    paths: all
+      .filter(each => speaks(dialect, each))
+      .sort()
+      .slice(0, MOST_AROUND),
+  };
+}
+
+const WITH_PROJECTS: ReadonlySet<string> = new Set(["krl", "rapid", "urscript", "val3"]);
+
+/** A file that nobody named: one that is too large, binary or cannot be read is none of the program. */
+async function textBeside(path: string, name: string, archives: Archives): Promise<TextFile | undefined> {
+  const packed = await archives.open(path);
+  const bytes = packed
+    ? archives.bytesOf(packed.archive, packed.inside)
+    : (await stat(path).catch(() => undefined))?.isFile() === true
+      ? await readFile(path).catch(() => undefined)
+      : undefined;
+  if (bytes === undefined || bytes.length > MOST_BYTES || bytes.subarray(0, 4096).includes(0)) return undefined;
+  return textFileOf(name, bytes);
 }
 
 async function bytesOf(path: string, archives: Archives): Promise<Uint8Array> {

@@ -13,11 +13,21 @@ export interface Call<Id extends ApiRouteId> {
   readonly named: boolean;
   /** Whether it came from another machine. */
   readonly remote: boolean;
+  readonly cookies: string | undefined;
+  /** Address of whoever asks. */
+  readonly address: string | undefined;
+  /** As the browser names this server: scheme, host and port. */
+  readonly origin: string;
   /** Told when whoever asked is gone before the answer. */
   onGone(listen: () => void): void;
 }
 export type Answer =
-  | { readonly kind: "json"; readonly value: unknown; readonly status?: number }
+  | {
+      readonly kind: "json";
+      readonly value: unknown;
+      readonly status?: number;
+      readonly headers?: Readonly<Record<string, string>>;
+    }
   | { readonly kind: "text"; readonly text: string; readonly type: string }
   | {
       readonly kind: "bytes";
@@ -25,6 +35,13 @@ export type Answer =
       readonly length: number;
       readonly name: string;
     };
+
+/** Who asks, or why they are turned away. */
+export type Entered =
+  | { readonly kind: "in"; readonly who: string; readonly named: boolean }
+  | { readonly kind: "out"; readonly status: 401 | 403 | 429; readonly sentence: string; readonly hint: string };
+/** What each route does. */
+export type Handlers = { readonly [Id in ApiRouteId]: (call: Call<Id>) => Answer | Promise<Answer> };
 
 export const json = (value: unknown, status = 200): Answer => ({ kind: "json", value, status });
 export const refusal = (code: string, sentence: string, hint: string): CommandOutcome => ({

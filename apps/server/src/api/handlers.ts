@@ -15,10 +15,12 @@ import {
   type RobotServer,
   type ServedConnection,
 } from "@twincell/protocol";
-import { json, outcomeAnswer, refusal, type Answer, type Call } from "./calls.ts";
+import type { Fleet } from "../fleet/fleet.ts";
+import { json, outcomeAnswer, refusal, type Answer, type Call, type Handlers } from "./calls.ts";
 import { documentFolder, type DocumentFolder } from "./documents.ts";
 import type { Judge, JudgeRequest } from "./judge.ts";
 import { metricsText, type RequestCounts } from "./metrics.ts";
+import { peopleHandlers, withoutPeople, type PeopleParts } from "../people/people-host.ts";
 import { apiPage } from "./page.ts";
 import type { ApiRobots } from "./robots.ts";
 
@@ -32,9 +34,13 @@ export interface ApiParts {
   readonly requests: RequestCounts;
   /** Whether requests are still taken. */
   readonly ready: () => boolean;
+  /** Null where nobody signs in by name. */
+  readonly people: PeopleParts | null;
+  readonly fleet: () => Fleet;
 }
-export type Handlers = { readonly [Id in ApiRouteId]: (call: Call<Id>) => Answer | Promise<Answer> };
 
+/** A motion that is asked for through a cluster is answered within this time, or asked for again by its id [ms]. */
+const FLEET_PATIENCE_MS = 120_000;
 const noRobot = (id: string): Answer =>
   json(refusal("robot.none", `There is no robot “${id}”.`, "GET /api/v1/robots lists those that are open."), 404);
 const wordsOf = ({ words }: ServedConnection) => ({
@@ -86,6 +92,10 @@ export function apiHandlers(parts: ApiParts): Handlers {
         drivers: ALL_DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports })),
       }),
     languages: () => json({ languages: DIALECTS.map(({ id, name, brand }) => ({ id, name, vendor: brand })) }),
+    fleet: () => json({ robots: parts.fleet().robots() }),
+    fleetCommand: async ({ params, body }) =>
+      outcomeAnswer(await parts.fleet().command(params["site"]!, body, FLEET_PATIENCE_MS)),
+    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople()),
     ...robotHandlers(parts),
     ...judgeHandlers(parts.judge),
     ...documentHandlers(documentFolder(parts.data, "programs"), documentFolder(parts.data, "cells")),

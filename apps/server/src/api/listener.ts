@@ -2,30 +2,27 @@ import type { IncomingMessage, ServerResponse } from "node:http";
 import { once } from "node:events";
 import { sameOrigin } from "../sockets/doors.ts";
 import type { AuditLog } from "../people/audit-log.ts";
-import { findRoute, json, readBody, refusal, type Answer, type Call } from "./calls.ts";
-import type { Handlers } from "./handlers.ts";
+import { findRoute, json, readBody, refusal, type Answer, type Call, type Entered, type Handlers } from "./calls.ts";
 import type { ApiRoute, ApiRouteId } from "@twincell/protocol";
 import { LEASE_HEADER } from "@twincell/protocol";
-
-/** Who asks, or why they are turned away. */
-export type Entered =
-  | { readonly kind: "in"; readonly who: string; readonly named: boolean }
-  | { readonly kind: "out"; readonly status: 401 | 403 | 429; readonly sentence: string; readonly hint: string };
 
 export interface ApiOptions {
   readonly handlers: Handlers;
   readonly headers: Readonly<Record<string, string>>;
-  readonly enter: (request: IncomingMessage, route: ApiRoute) => Entered;
+  readonly enter: (request: IncomingMessage, route: ApiRoute, subject: string | undefined) => Entered;
   readonly counts: Map<number, number>;
   /** Where changes of documents are written down; acts at robots are by their host. */
   readonly audit: AuditLog | null;
+  /** Told of each answer, by the name of its route: where requests are traced. */
+  readonly observe?: (route: string, method: string, status: number, began_ms: number) => void;
 }
 const isLoopback = (address = ""): boolean => address === "::1" || /^(::ffff:)?127\./.test(address);
 
 /** Answers one request at an address of the API. */
-export function apiListener({ handlers, headers, enter, counts, audit }: ApiOptions) {
+export function apiListener({ handlers, headers, enter, counts, audit, observe }: ApiOptions) {
   return async function answer(request: IncomingMessage, response: ServerResponse, path: string): Promise<void> {
     const gone = new Set<() => void>();
+    const began_ms = Date.now();
     response.on("close", () => {
       if (!response.writableFinished) for (const listen of gone) listen();
     });
@@ -33,6 +30,11 @@ export function apiListener({ handlers, headers, enter, counts, audit }: ApiOpti
     gone.clear();
     const status = found.kind === "json" ? (found.status ?? 200) : 200;
     counts.set(Math.floor(status / 100), (counts.get(Math.floor(status / 100)) ?? 0) + 1);
+    const method = request.method ?? "GET";
+    if (observe) {
+      const route = findRoute(method, path);
+      observe(route.kind === "found" ? route.id : "none", method, status, began_ms);
+    }
     await write(response, found, { ...headers, "cache-control": "no-store", ...more }, request.method === "HEAD");
   };
 
@@ -66,7 +68,7 @@ export function apiListener({ handlers, headers, enter, counts, audit }: ApiOpti
           403,
         ),
       };
-    const entered = enter(request, found.route);
+    const entered = enter(request, found.route, found.params["id"] ?? found.params["name"]);
     if (entered.kind === "out")
       return {
         answer: json(refusal("api.access", entered.sentence, entered.hint), entered.status),
@@ -100,6 +102,9 @@ export function apiListener({ handlers, headers, enter, counts, audit }: ApiOpti
       lease: String(request.headers[LEASE_HEADER] ?? ""),
       who: entered.who,
       named: entered.named,
+      cookies: request.headers.cookie,
+      address: request.socket.remoteAddress,
+      origin: `${"encrypted" in request.socket ? "https" : "http"}://${request.headers.host ?? ""}`,
       remote: !isLoopback(request.socket.remoteAddress),
       onGone(listen) {
         if (request.socket.destroyed) listen();
@@ -108,7 +113,7 @@ export function apiListener({ handlers, headers, enter, counts, audit }: ApiOpti
     };
     const handle = handlers[found.id as ApiRouteId] as (call: Call<never>) => Answer | Promise<Answer>;
     const answered = await handle(call);
-    if (found.route.access === "write")
+    if (found.route.access === "write" || found.route.access === "people")
       audit?.write({
         who: entered.who,
         action: found.id,
@@ -131,6 +136,7 @@ async function write(
     const text = answer.kind === "json" ? JSON.stringify(answer.value) : answer.text;
     response.writeHead(answer.kind === "json" ? (answer.status ?? 200) : 200, {
       ...headers,
+      ...(answer.kind === "json" ? answer.headers : {}),
       "content-type": answer.kind === "json" ? "application/json" : answer.type,
       "content-length": String(Buffer.byteLength(text)),
     });

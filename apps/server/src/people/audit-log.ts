@@ -145,6 +145,8 @@ export function openAuditLog(
   return {
     write,
     close() {
+      // A file number that was given back may be another file's by now.
+      if (closed) return;
       fsyncSync(file);
       closed = true;
       // A flush that is under way keeps its file until it has ended.

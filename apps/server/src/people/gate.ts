@@ -2,24 +2,35 @@ import type { IncomingMessage } from "node:http";
 import type { Scheduler } from "@twincell/core";
 import { SOCKETS, type ApiRoute } from "@twincell/protocol";
 import { clientOf, type AccessCode } from "../access.ts";
-import type { Entered } from "../api/listener.ts";
+import type { Entered } from "../api/calls.ts";
+import type { Account } from "./accounts.ts";
 import type { AuditLog } from "./audit-log.ts";
 import { mayUse, type Role, type TokenAnswer } from "./tokens.ts";
 
+/** What somebody may do at one robot or cell. */
+export type RoleAt = (subject?: string) => Role;
 export interface Gate {
-  /** Whether that request may use a route of that kind, and in whose name. */
-  enter(request: IncomingMessage, access: ApiRoute["access"]): Entered;
+  /**
+   * Whether that request may use a route of that kind, and in whose name.
+   *
+   * @param subject  id of the robot or name of the document that it is about.
+   */
+  enter(request: IncomingMessage, access: ApiRoute["access"], subject?: string): Entered;
   /** Whether that request may open a socket. */
   socket(request: IncomingMessage): boolean;
-  /** Whether a socket that was opened by that request may stay open: its token was not taken back and has not ended. */
+  /** Whether a socket that was opened by that request may stay open: what let it in was not taken back or has ended. */
   stays(request: IncomingMessage): boolean;
-  /** The name of the token that a request carries, or null. */
+  /** The name of the person or token of a request, or null. */
   nameOf(request: IncomingMessage): string | null;
+  /** Their roles as they are at each call; null where no account or token limits anything. */
+  roleOf(request: IncomingMessage): RoleAt | null;
 }
 export interface GateOptions {
-  /** Null on loopback, where everybody of this machine is in. */
+  /** Null on loopback, where everybody of this machine is in, and where people sign in by name. */
   readonly access: AccessCode | null;
   readonly tokens: (token: string) => TokenAnswer;
+  /** Who is signed in by the cookies of a request; null where nobody signs in by name. */
+  readonly people: ((cookies: string | undefined) => Account | null) | null;
   readonly audit: AuditLog | null;
   readonly scheduler: Scheduler;
   readonly onTrouble: (sentence: string) => void;
@@ -30,9 +41,11 @@ const MOST_CLIENTS = 1000;
 const bearer = (request: IncomingMessage): string | null =>
   /^Bearer (.+)$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
 const isToken = (given: string | null): given is string => given?.startsWith("twincell_") === true;
+export const roleAt = ({ role, rights }: Pick<Account, "role" | "rights">, subject?: string): Role =>
+  (subject !== undefined && Object.hasOwn(rights, subject) ? rights[subject] : undefined) ?? role;
 
-/** Lets in by token, by access code, or on loopback without either; writes down who was turned away. */
-export function createGate({ access, tokens, audit, scheduler, onTrouble }: GateOptions): Gate {
+/** Lets in by token, by account, by access code, or on loopback without any; writes down who was turned away. */
+export function createGate({ access, tokens, people, audit, scheduler, onTrouble }: GateOptions): Gate {
   const written_s = new Map<string, number>();
   function out(
     request: IncomingMessage,
@@ -54,30 +67,32 @@ export function createGate({ access, tokens, audit, scheduler, onTrouble }: Gate
     }
     return { kind: "out", status, sentence, hint };
   }
-  function enter(request: IncomingMessage, kind: ApiRoute["access"]): Entered {
-    if (kind === "open") return { kind: "in", who: "anyone", named: false };
-    const given = bearer(request);
-    if (isToken(given)) {
-      const answer = tokens(given);
-      if (answer.kind === "unknown")
-        return out(request, 401, "somebody", "This token is not known here.", "Make one with twincell token add.");
-      if (answer.kind === "ended")
-        return out(
+  const judged = (request: IncomingMessage, name: string, role: Role, kind: ApiRoute["access"]): Entered =>
+    mayUse(role, kind)
+      ? { kind: "in", who: name, named: true }
+      : out(request, 403, name, `${name} is ${roleText(role)} and may not do this.`, needed(kind));
+  function byToken(request: IncomingMessage, given: string, kind: ApiRoute["access"]): Entered {
+    const answer = tokens(given);
+    if (answer.kind === "known") return judged(request, answer.name, answer.role, kind);
+    return answer.kind === "unknown"
+      ? out(request, 401, "somebody", "This token is not known here.", "Make one with twincell token add.")
+      : out(
           request,
           401,
           answer.name,
           `The token of ${answer.name} has ended.`,
           "Make another one with twincell token add.",
         );
-      if (!mayUse(answer.role, kind))
-        return out(
-          request,
-          403,
-          answer.name,
-          `${answer.name} is ${roleText(answer.role)} and may not do this.`,
-          needed(kind),
-        );
-      return { kind: "in", who: answer.name, named: true };
+  }
+  function enter(request: IncomingMessage, kind: ApiRoute["access"], subject?: string): Entered {
+    if (kind === "open") return { kind: "in", who: "anyone", named: false };
+    const given = bearer(request);
+    if (isToken(given)) return byToken(request, given, kind);
+    if (people) {
+      const account = people(request.headers.cookie);
+      return account
+        ? judged(request, account.name, roleAt(account, subject), kind)
+        : out(request, 401, "somebody", "People sign in here.", "Sign in, or send a token.");
     }
     if (access === null) return { kind: "in", who: "api", named: false };
     const entry = access.enter(request.headers.cookie, given, clientOf(request.socket.remoteAddress));
@@ -105,23 +120,42 @@ export function createGate({ access, tokens, audit, scheduler, onTrouble }: Gate
       const path = (request.url ?? "").split("?")[0];
       // By code only the cookie counts here, as for every socket of the studio.
       if (!isToken(bearer(request)))
-        return (
-          access === null ||
-          access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome"
-        );
+        return people
+          ? enter(request, "look").kind === "in"
+          : access === null ||
+              access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome";
       return enter(request, path === SOCKETS.stream ? "look" : "command").kind === "in";
     },
     stays(request) {
       const given = bearer(request);
-      return !isToken(given) || tokens(given).kind === "known";
+      if (isToken(given)) return tokens(given).kind === "known";
+      return people === null || people(request.headers.cookie) !== null;
     },
     nameOf(request) {
       const given = bearer(request);
       const answer = isToken(given) ? tokens(given) : null;
-      return answer?.kind === "known" ? answer.name : null;
+      if (answer) return answer.kind === "known" ? answer.name : null;
+      return people?.(request.headers.cookie)?.name ?? null;
+    },
+    roleOf(request) {
+      const given = bearer(request);
+      if (isToken(given))
+        return () => {
+          const answer = tokens(given);
+          return answer.kind === "known" ? answer.role : "viewer";
+        };
+      if (!people) return null;
+      return subject => {
+        const account = people(request.headers.cookie);
+        return account ? roleAt(account, subject) : "viewer";
+      };
     },
   };
 }
 const roleText = (role: Role): string => (role === "operator" || role === "admin" ? `an ${role}` : `a ${role}`);
 const needed = (kind: ApiRoute["access"]): string =>
-  kind === "write" ? "It needs the role programmer or admin." : "It needs the role operator or admin.";
+  kind === "people"
+    ? "It needs the role admin."
+    : kind === "write"
+      ? "It needs the role programmer or admin."
+      : "It needs the role operator or admin.";

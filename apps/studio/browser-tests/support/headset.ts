@@ -45,11 +45,17 @@ export class Person {
       () =>
         window.twincell.stores.viewStore.getState().inHeadset &&
         window.twincellScene!.gl.xr.getSession()?.inputSources.length === 2,
+      null,
+      { timeout: 120_000 },
     );
     await kept.evaluate(own => {
       Object.defineProperties(window, own);
     });
-    await this.page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined);
+    await this.page.waitForFunction(
+      () => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined,
+      null,
+      { timeout: 120_000 },
+    );
     await this.frames(4);
   }
 
@@ -59,6 +65,7 @@ export class Person {
     await this.page.waitForFunction(
       all => window.twincellScene!.frames >= all || !window.twincellScene!.gl.xr.isPresenting,
       until,
+      { timeout: 120_000 },
     );
   }
 
@@ -242,6 +249,12 @@ export class Person {
       window.xrDevice.controllers[which]!.quaternion.set(0, 0, 0, 1);
     }, side);
     await this.frames();
+  }
+
+  /** Opens a tab of the plate on the wrist, and a page of it, counted from 1. */
+  async open(tab: "teach" | "check" | "run" | "cell" | "history", page = 1): Promise<void> {
+    await this.press("right", `tab-${tab}`);
+    for (let i = 1; i < page; i++) await this.press("right", "more");
   }
 
   async tcp(): Promise<Vector3> {

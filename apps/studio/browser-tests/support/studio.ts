@@ -40,6 +40,8 @@ export interface OpenOptions {
   readonly touch?: boolean;
   /** Installs an emulated headset before the page starts: a Quest 3, or the one that is named. */
   readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro";
+  /** The page may keep itself for use without a network; every other test asks the server for everything. */
+  readonly offline?: boolean;
   /** Added to the page before it starts. */
   readonly script?: string;
   readonly query?: string;
@@ -59,15 +61,18 @@ export class Studio {
     this.browser = browser;
   }
 
-  static async start(flags: readonly string[] = []): Promise<Studio> {
+  /** What the server has written so far. */
+  said = "";
+
+  static async start(flags: readonly string[] = [], serve: readonly string[] = []): Promise<Studio> {
     const executablePath = PLACES.find(path => path !== undefined && existsSync(path));
     if (executablePath === undefined) throw new Error("No Chromium was found; set TWINCELL_CHROMIUM to its path.");
-    const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0"], {
+    const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0", ...serve], {
       cwd: root,
       stdio: ["ignore", "pipe", "inherit"],
     });
+    let text = "";
     const url = await new Promise<string>((resolve, reject) => {
-      let text = "";
       server.stdout.on("data", (part: Buffer) => {
         text += part.toString();
         const found = /https?:\/\/\S+/.exec(text);
@@ -78,7 +83,10 @@ export class Studio {
       });
     });
     const browser = await chromium.launch({ executablePath, headless: true, args: [...FLAGS, ...flags] });
-    return new Studio(url, server, browser);
+    const studio = new Studio(url, server, browser);
+    studio.said = text;
+    server.stdout.on("data", (part: Buffer) => (studio.said += part.toString()));
+    return studio;
   }
 
   /** A fresh person: nothing stored, no permission given. */
@@ -88,6 +96,7 @@ export class Studio {
       hasTouch: options.touch ?? false,
       isMobile: options.touch ?? false,
       acceptDownloads: true,
+      serviceWorkers: options.offline === true ? "allow" : "block",
       colorScheme: options.theme ?? "dark",
       locale: options.locale ?? "en-US",
     });

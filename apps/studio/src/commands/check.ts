@@ -1,6 +1,6 @@
 import type { Checking } from "../runtime/planning/checking.ts";
 import { lookAt, nextProblem, problems } from "../runtime/planning/look-at.ts";
-import { canRepair, repairProgram } from "../runtime/planning/repairing.ts";
+import { applyRepair, canRepair, explainStep, repairProgram } from "../runtime/planning/repairing.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
@@ -65,6 +65,31 @@ export const checkCommands = (checking: Checking): readonly Command[] => [
     }),
   ),
   {
+    id: "check.explain",
+    group: "program",
+    words: words.check.waysOut,
+    can: () => canRepair() && problemNow() !== null,
+    run: () => {
+      const step = problemNow();
+      if (step !== null) explainStep(step);
+    },
+  },
+  ...[0, 1, 2].map(
+    (index): Command => ({
+      id: `check.apply-repair-${index + 1}`,
+      group: "program",
+      words: words.check.applyRepair(index + 1),
+      can: () => repairOffered(index),
+      run: () => {
+        const { current, explanations } = repairStore.getState();
+        const repair = current === null ? undefined : explanations.get(current)?.repairs[index];
+        if (current === null || !repair) return;
+        showRepair(null);
+        if (!applyRepair(current, repair)) notify("info", words.check.noRepair);
+      },
+    }),
+  ),
+  {
     id: "check.hide-repair",
     group: "program",
     words: words.commands.hideRepair,
@@ -76,6 +101,14 @@ export const checkCommands = (checking: Checking): readonly Command[] => [
 const repairsNow = (): ReturnType<typeof firstRepairs> => firstRepairs(playStore.getState().verdict);
 const badSteps = (): number =>
   canRepair() ? (playStore.getState().verdict?.steps.filter(({ verdict }) => verdict === "bad").length ?? 0) : 0;
+
+/** The selected step if it cannot be carried out, else the first that cannot. */
+function problemNow(): string | null {
+  const { selected } = selectionStore.getState();
+  const bad = playStore.getState().verdict?.steps.filter(({ verdict }) => verdict === "bad") ?? [];
+  const chosen = selected?.kind === "step" ? bad.find(({ id }) => id === selected.id) : undefined;
+  return (chosen ?? bad[0])?.id ?? null;
+}
 
 function goToProblem(forward: boolean): void {
   const { selected } = selectionStore.getState();

@@ -28,8 +28,15 @@ export const playCommands = (): readonly Command[] => [
   },
   { id: "play.step", group: "play", words: words.commands.stepOn, keys: ["ArrowRight"], can, run: () => toStep(1) },
   { id: "play.back", group: "play", words: words.commands.stepBack, keys: ["ArrowLeft"], can, run: () => toStep(-1) },
+  { id: "play.faster", group: "play", words: words.commands.faster, run: () => changeSpeed(0.1) },
+  { id: "play.slower", group: "play", words: words.commands.slower, run: () => changeSpeed(-0.1) },
   { id: "play.start", group: "play", words: words.commands.start, keys: ["Home"], can, run: () => seek(0) },
 ];
+
+/** By a tenth, within 0 … 100 %. */
+function changeSpeed(by: number): void {
+  playStore.setState(({ speed }) => ({ speed: Math.min(1, Math.max(0, Math.round(10 * (speed + by)) / 10)) }));
+}
 
 /** Another way to play: what was playing stands still. */
 function togglePhysics(): void {

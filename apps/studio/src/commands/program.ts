@@ -1,3 +1,4 @@
+import type { Program } from "@twincell/core";
 import { goThere } from "../runtime/jog/go-to-point.ts";
 import { contactAt, namesOf } from "../runtime/jog/hand-motion.ts";
 import { theLive } from "../runtime/live.ts";
@@ -11,7 +12,11 @@ import { notify } from "../stores/notices.ts";
 import {
   addComment,
   addGripper,
+  addAssign,
+  addCall,
+  addIf,
   addRepeat,
+  addWhile,
   addSet,
   addWait,
   addWaitFor,
@@ -19,6 +24,7 @@ import {
   copySteps,
   deleteSteps,
   findStep,
+  recordArcTo,
   recordPoint,
   stepWords,
   touchUp,
@@ -28,6 +34,9 @@ import { seekStep } from "../stores/seek.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { sound } from "../stores/sound.ts";
 import { words } from "../messages/index.ts";
+
+/** Joint angles closer than this are the same point [rad, m]. */
+const SAME_RAD = 1e-4;
 
 const selectedStep = (): string | null => {
   const { selected } = selectionStore.getState();
@@ -60,6 +69,26 @@ function record(path: "ptp" | "lin"): void {
   const id = selectedStep();
   if (id) notify("done", words.jog.recorded(nameOf(id)));
 }
+/** The first press keeps the point in between, the second ends the arc there; another program forgets it. */
+let via: { readonly program: Program; readonly q_rad: readonly number[] } | null = null;
+function recordArc(): void {
+  const program = theProgram();
+  if (!program || refused()) return;
+  const { q_rad } = theLive();
+  if (via?.program !== program) {
+    via = { program, q_rad: Array.from(q_rad) };
+    notify("info", words.headset.viaKept);
+    return;
+  }
+  if (via.q_rad.every((angle, i) => Math.abs(angle - q_rad[i]!) < SAME_RAD)) {
+    notify("warn", words.headset.viaNone);
+    return;
+  }
+  const tool = cellStore.getState().document?.tool ?? "flange";
+  if (recordArcTo(via.q_rad, q_rad, tool)) via = null;
+  const id = selectedStep();
+  if (id && via === null) notify("done", words.jog.recorded(nameOf(id)));
+}
 function gripper(closed: boolean): void {
   if (addGripper(closed)) sound("grip");
 }
@@ -81,6 +110,7 @@ export const programCommands = (): readonly Command[] => [
     can: hasProgram,
     run: () => record("lin"),
   },
+  { id: "program.record-circ", group: "program", words: words.commands.recordCirc, can: hasProgram, run: recordArc },
   {
     id: "program.record-moving",
     group: "program",
@@ -139,6 +169,42 @@ export const programCommands = (): readonly Command[] => [
     can: hasProgram,
     run: () => {
       addRepeat();
+    },
+  },
+  {
+    id: "program.while",
+    group: "program",
+    words: words.commands.while,
+    can: hasProgram,
+    run: () => {
+      addWhile();
+    },
+  },
+  {
+    id: "program.if",
+    group: "program",
+    words: words.commands.if,
+    can: hasProgram,
+    run: () => {
+      addIf();
+    },
+  },
+  {
+    id: "program.assign",
+    group: "program",
+    words: words.commands.assign,
+    can: hasProgram,
+    run: () => {
+      addAssign();
+    },
+  },
+  {
+    id: "program.call",
+    group: "program",
+    words: words.commands.call,
+    can: () => Object.keys(theProgram()?.routines ?? {}).length > 0,
+    run: () => {
+      addCall();
     },
   },
   {

@@ -72,7 +72,9 @@ export function Viewport() {
   const measuring = useStore(buildStore, state => state.tool === "measure");
   const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
-  const colours = useMemo(() => readTheme(theme), [theme]);
+  // A headset shows a bright room, whatever the page looks like.
+  const shade = inHeadset ? "light" : theme;
+  const colours = useMemo(() => readTheme(shade), [shade]);
   const [pictured, setPictured] = useState(true);
   const picture = useMemo(hiddenPicture, []);
   const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
@@ -111,7 +113,7 @@ export function Viewport() {
           <Thumbnail />
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
-            {document && <RunContext theme={colours} document={document} />}
+            {document && <RunContext theme={colours} document={document} sky={!inHeadset} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
             {stations > 0 && (
               <Suspense fallback={null}>
@@ -130,7 +132,7 @@ export function Viewport() {
               </Suspense>
             )}
             {document?.objects.map(object => (
-              <ObjectView key={object.id} object={object} theme={colours} />
+              <ObjectView key={object.id} object={object} theme={colours} glass={inHeadset} />
             ))}
             {document && <WatchedView document={document} theme={colours} />}
             <PathView theme={colours} />

@@ -12,6 +12,7 @@ export type DialogName =
   | "station"
   | "collision"
   | "cameras"
+  | "people"
   | "shapes"
   | "run-question"
   | "demonstration";

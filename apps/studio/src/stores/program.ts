@@ -15,12 +15,15 @@ import {
   stepById,
   withSignal,
   wrapInRepeat,
-  type Condition,
+  predicateText,
+  printExpression,
   type ListPlace,
   type MoveStep,
+  type Predicate,
   type Program,
   type Repair,
   type SignalLine,
+  type Variable,
   type Speed,
   type Step,
   type Verdict,
@@ -45,7 +48,7 @@ function insertSelected(program: Program, steps: readonly Step[]): Program {
   const { selected } = selectionStore.getState();
   const found = selected?.kind === "step" ? findStep(program, selected.id)?.step : undefined;
   if (found === undefined) return insertSteps(program, program.steps.length, steps);
-  return isBlock(found)
+  return isBlock(found) || (found.type === "wait-for" && found.late !== undefined)
     ? insertInto(program, { block: found.id }, Number.POSITIVE_INFINITY, steps)
     : insertAfter(program, found.id, steps);
 }
@@ -93,6 +96,22 @@ export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, to
     },
   ]);
 }
+/** Records an arc through one posture to another. */
+export function recordArcTo(via_rad: ArrayLike<number>, q_rad: ArrayLike<number>, tool: string): boolean {
+  const target = (angles: ArrayLike<number>): MoveStep["target"] =>
+    tool === "flange" ? { q: Array.from(angles) } : { q: Array.from(angles), tool };
+  return addSteps(words.undo.recordPoint, program => [
+    {
+      id: freshStepId(program, "p"),
+      type: "move",
+      path: "circ",
+      speed: { mps: 0.1 },
+      blend_m: 0,
+      via: target(via_rad),
+      target: target(q_rad),
+    },
+  ]);
+}
 export const addWait = (s: number): boolean =>
   addSteps(words.undo.addWait, program => [{ id: freshStepId(program, "w"), type: "wait", s }]);
 export const addGripper = (closed: boolean): boolean =>
@@ -134,6 +153,78 @@ export function addRepeat(): boolean {
       : edit(words.undo.addRepeat, before => wrapInRepeat(before, [around], 2));
   if (done) select({ kind: "step", id });
   return done;
+}
+
+/** A loop or a decision around nothing yet, by the first input of the program. */
+const asking = (): { readonly when: Predicate; readonly name: string } => {
+  const name = lineOf("digital-in") ?? words.step.input;
+  return { name, when: { signal: name, is: true } };
+};
+export const addWhile = (): boolean => {
+  const { name, when } = asking();
+  return addSteps(
+    words.undo.addWhile,
+    program => [{ id: freshStepId(program, "r"), type: "while", when, steps: [] }],
+    program => withLine(program, name, { kind: "digital-in", address: 1001 }),
+  );
+};
+export const addIf = (): boolean => {
+  const { name, when } = asking();
+  return addSteps(
+    words.undo.addIf,
+    program => [{ id: freshStepId(program, "d"), type: "if", when, then: [], else: [] }],
+    program => withLine(program, name, { kind: "digital-in", address: 1001 }),
+  );
+};
+/** Counts up the first whole number of the program; one that has none gets its first. */
+export const addAssign = (): boolean => {
+  const known = Object.entries(theProgram()?.variables ?? {}).find(([, { type }]) => type === "int")?.[0];
+  const variable = known ?? FIRST_VARIABLE;
+  return addSteps(
+    words.undo.addAssign,
+    program => [
+      {
+        id: freshStepId(program, "v"),
+        type: "assign",
+        variable,
+        to: { op: "+", of: [{ variable }, 1] },
+      },
+    ],
+    program => (known === undefined ? withVariable(program, variable, { type: "int" }) : program),
+  );
+};
+const FIRST_VARIABLE = "count";
+const withVariable = (program: Program, name: string, variable: Variable): Program => ({
+  ...program,
+  variables: { ...program.variables, [name]: variable },
+});
+/** Gives the program a variable, or another type and first value to one that it has. */
+export const setVariable = (name: string, variable: Variable): boolean =>
+  edit(words.undo.variable, program => withVariable(program, name, variable));
+export const addCall = (): boolean => {
+  const program = theProgram();
+  const routine = Object.keys(program?.routines ?? {})[0];
+  if (program === null || routine === undefined) return false;
+  return addSteps(words.undo.addCall, before => [
+    { id: freshStepId(before, "k"), type: "call", routine, ...firstArguments(before, routine) },
+  ]);
+};
+/** No, or 0, for every parameter of a routine. */
+export function firstArguments(program: Program, routine: string): Pick<Extract<Step, { type: "call" }>, "arguments"> {
+  const wanted = Object.entries(program.parameters?.[routine] ?? {});
+  if (wanted.length === 0) return {};
+  return {
+    arguments: Object.fromEntries(
+      wanted.map(([name, type]) => [
+        name,
+        type.type === "bool"
+          ? false
+          : type.type === "num" && type.unit !== undefined
+            ? { value: 0, unit: type.unit }
+            : 0,
+      ]),
+    ),
+  };
 }
 
 export function changeStep(id: string, label: string, change: (step: Step) => Step, gesture?: string): boolean {
@@ -240,6 +331,10 @@ export function stepWords(step: Step, index: number): string {
       return step.text === "" ? words.step.comment : step.text;
     case "call":
       return words.step.call(step.routine);
+    case "assign":
+      return words.step.assign(step.variable, printExpression(step.to));
+    case "while":
+      return words.step.while(conditionWords(step.when));
     case "repeat":
       return step.times === "forever" ? words.step.forever : words.step.repeat(step.times);
     case "if":
@@ -252,7 +347,8 @@ export function stepWords(step: Step, index: number): string {
 const level = (to: boolean | number): string =>
   typeof to === "number" ? String(to) : to ? words.common.on : words.common.off;
 /** A condition as it stands in a sentence. */
-export function conditionWords(when: Condition): string {
+export function conditionWords(when: Predicate): string {
+  if ("expression" in when) return predicateText(when);
   if ("is" in when) return words.step.is(when.signal, level(when.is));
   return "above" in when ? words.step.above(when.signal, when.above) : words.step.below(when.signal, when.below);
 }

@@ -117,7 +117,7 @@ export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
 
-/** Why a robot does not stand on a controller of that kind, by its vendor section and kinematics; null where it does. */
+/** Why a robot does not stand on a controller of that kind, by section and kinematics; null where it does. */
 function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
   const wrong = falseIdentity(robot);
   if (wrong !== undefined)
@@ -127,16 +127,15 @@ function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
       hint: "Give the file of the robot itself, with its own vendor section.",
     };
   if (drivesRobot(kind, robot)) return null;
-  const { vendorSection } = robot;
+  const drivers = robot.vendorSection?.drivers ?? [];
   return {
     code: "station.other-brand",
-    sentence: `${robot.name} does not stand on a controller of ${kind.name}${
-      vendorSection === undefined
-        ? ": its file has no vendor section"
-        : vendorSection.drivers.length === 0
-          ? ""
-          : `; its drivers are ${vendorSection.drivers.join(", ")}`
-    }.`,
+    sentence:
+      robot.vendorSection === undefined
+        ? `${robot.name} does not stand on a controller of ${kind.name}: its file has no vendor section.`
+        : drivers.length === 0
+          ? `${robot.name} does not stand on a controller of ${kind.name}.`
+          : `${robot.name} does not stand on a controller of ${kind.name}; its drivers are ${drivers.join(", ")}.`,
     hint: `Choose another controller or another robot, or give its file a vendor section with the driver ${kind.id}.`,
   };
 }

@@ -1,6 +1,7 @@
 import {
   GRIPPER_S,
   holds,
+  predicateText,
   type CommandOutcome,
   type PlanContext,
   type Refusal,
@@ -89,9 +90,9 @@ export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): P
         const { timeout_s = Infinity } = step;
         const begun_s = scheduler.now_s();
         await until(() => holds(step.when, signals) || scheduler.now_s() - begun_s >= timeout_s - 1e-9);
-        return ended() || holds(step.when, signals)
+        return ended() || step.late !== undefined || holds(step.when, signals)
           ? DONE
-          : { kind: "stopped", why: waitedInVain(step.id, step.when.signal, timeout_s) };
+          : { kind: "stopped", why: waitedInVain(step.id, predicateText(step.when), timeout_s) };
       }
       case "payload":
         return refusedBy(adapter.setPayload ? adapter.setPayload(step.mass_kg, step.center_m) : noPayload(robot));

@@ -25,6 +25,7 @@ import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
 import { GRIP_REACH_M, partsAreFollowed, type CarriedPart } from "./grasped-parts.ts";
 import type { Program, Step } from "../program/program.ts";
 import type { Finding, Verdict } from "./verdict.ts";
+import { predicateVariables } from "../program/predicate.ts";
 import { everyStep } from "../program/walk.ts";
 
 export interface CheckOptions {
@@ -204,11 +205,17 @@ function asWritten(layout: Layout): Plan {
   };
 }
 
+const decidesByVariables = (step: Step): boolean =>
+  (step.type === "if" || step.type === "wait-for") && predicateVariables(step.when).size > 0;
+
 function assumed(steps: readonly Step[], layout: Layout): string[] {
   const has = (type: Step["type"]): boolean => steps.some(step => step.type === type);
   return [
     ...(has("gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
     ...(has("wait-for") ? ["Waits for signals are given no time."] : []),
+    ...(has("while") || steps.some(decidesByVariables)
+      ? ["Decisions that variables alone take were followed; where inputs decide, every way was looked at."]
+      : []),
     ...(has("if") ? ["Both sides of every decision were looked at, one after the other in the plan."] : []),
     ...(steps.some(step => step.type === "repeat" && step.times === "forever")
       ? ["Loops without end were looked at twice round."]
@@ -216,7 +223,7 @@ function assumed(steps: readonly Step[], layout: Layout): string[] {
     ...(steps.some(step => step.type === "move" && step.until !== undefined)
       ? ["Searches were looked at as if nothing is found before their end."]
       : []),
-    ...(layout.cut === undefined || !has("repeat")
+    ...(layout.cut === undefined || !(has("repeat") || has("while"))
       ? []
       : [
           `Beyond ${layout.cut} steps, loops were looked at twice round; the duration is less than that of the whole program.`,

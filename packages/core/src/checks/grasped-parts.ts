@@ -7,6 +7,7 @@ import { compose, inverse, transformPoint, type Pose } from "../spatial/pose.ts"
 import type { MotionSegment, Segment } from "../trajectory/plan.ts";
 import { sampleSegment } from "../trajectory/sample.ts";
 import type { Program, Step } from "../program/program.ts";
+import { predicateLines } from "../program/predicate.ts";
 import { everyIn, everyStep, listsOf } from "../program/walk.ts";
 
 /** The gripper takes the part that holds its grip point, else the nearest within this (row M-20) [m]. */
@@ -65,7 +66,9 @@ export function partsAreFollowed(program: Pick<Program, "steps" | "routines">): 
           !inside.includes(step.routine) &&
           acts(program.routines[step.routine] ?? [], [...inside, step.routine])),
     );
-  return ![...everyStep(program)].some(step => step.type === "if" && listsOf(step).some(list => acts(list, [])));
+  const decides = (step: Step): boolean =>
+    step.type === "if" || step.type === "wait-for" || (step.type === "while" && predicateLines(step.when).length > 0);
+  return ![...everyStep(program)].some(step => decides(step) && listsOf(step).some(list => acts(list, [])));
 }
 
 /**

@@ -1,4 +1,6 @@
-import type { Condition, Program, Step } from "../program/program.ts";
+import { linesOf } from "../program/expression/expression.ts";
+import { expressionsOf, isCondition } from "../program/predicate.ts";
+import type { Condition, Predicate, Program, Step } from "../program/program.ts";
 import type { Repair } from "./verdict.ts";
 import { everyStep } from "../program/walk.ts";
 import { startOf, type CheckScene } from "./scene.ts";
@@ -18,6 +20,16 @@ const MOST_NAMES = 3;
 export function checkSignals(scene: CheckScene): void {
   const { signals } = scene.program;
   for (const step of everyStep(scene.program)) {
+    for (const signal of unknownLines(step, signals))
+      scene.add(step.id, "bad", {
+        code: "signals.unknown",
+        value: 0,
+        limit: 0,
+        unit: "1",
+        at_s: startOf(scene, step.id),
+        sentence: `The program has no signal “${signal}”.`,
+        repairs: [],
+      });
     const use = useOf(step);
     if (use === undefined) continue;
     const line = Object.hasOwn(signals, use.signal) ? signals[use.signal]! : undefined;
@@ -56,9 +68,11 @@ function useOf(step: Step): Use | undefined {
         renamed: signal => ({ ...step, signal }),
       };
     case "wait-for":
-      return { ...read(step.when), renamed: signal => ({ ...step, when: { ...step.when, signal } }) };
+      return used(step.when, when => ({ ...step, when }));
     case "if":
-      return { ...read(step.when), renamed: signal => ({ ...step, when: { ...step.when, signal } }) };
+      return used(step.when, when => ({ ...step, when }));
+    case "while":
+      return used(step.when, when => ({ ...step, when }));
     case "move": {
       const { until } = step;
       return until === undefined
@@ -72,6 +86,16 @@ function useOf(step: Step): Use | undefined {
       return undefined;
   }
 }
+
+/** Lines of an expression that do not exist: its kinds are checked where it is read. */
+function* unknownLines(step: Step, signals: Program["signals"]): Generator<string, void> {
+  if ("when" in step && isCondition(step.when)) return;
+  for (const expression of expressionsOf(step))
+    for (const signal of linesOf(expression)) if (!Object.hasOwn(signals, signal)) yield signal;
+}
+
+const used = (when: Predicate, changed: (when: Condition) => Step): Use | undefined =>
+  isCondition(when) ? { ...read(when), renamed: signal => changed({ ...when, signal }) } : undefined;
 
 const read = (when: Condition): Omit<Use, "renamed"> => ({
   signal: when.signal,

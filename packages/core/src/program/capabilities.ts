@@ -1,4 +1,4 @@
-import type { Condition, Program, Step } from "./program.ts";
+import type { Predicate, Program, Step } from "./program.ts";
 import { everyStep } from "./walk.ts";
 
 /** Everything a program can ask of a robot language, so that what one cannot say has the same name everywhere. */
@@ -29,6 +29,13 @@ export const CAPABILITIES = [
   "message",
   "stop",
   "comment",
+  "assign",
+  "while",
+  "expression",
+  "truth-values",
+  "wait-expression",
+  "late",
+  "arguments",
 ] as const;
 export type Capability = (typeof CAPABILITIES)[number];
 
@@ -57,17 +64,31 @@ export function* capabilitiesOf(step: Step): Generator<Capability, void> {
     case "wait-for":
       yield "wait-for";
       if (step.timeout_s !== undefined) yield "timeout";
+      if (step.late !== undefined) yield "late";
+      if ("expression" in step.when) {
+        yield "wait-expression";
+        return;
+      }
       return yield* read(step.when);
     case "if":
-      yield "if";
+    case "while":
+      yield step.type;
       return yield* read(step.when);
+    case "assign":
+      yield "assign";
+      return;
+    case "call":
+      yield "call";
+      if (step.arguments !== undefined) yield "arguments";
+      return;
     default:
       yield step.type;
   }
 }
 
-function* read(when: Condition): Generator<Capability, void> {
-  if (!("is" in when)) yield "read-analogue";
+function* read(when: Predicate): Generator<Capability, void> {
+  if ("expression" in when) yield "expression";
+  else if (!("is" in when)) yield "read-analogue";
 }
 
 /** What a program asks for, each with the first step that does. */

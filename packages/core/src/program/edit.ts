@@ -298,7 +298,8 @@ function inList(program: Program, where: ListPlace, change: (list: readonly Step
         at,
         where.side === "else" ? { ...step, else: change(step.else ?? []) } : { ...step, then: change(step.then) },
       );
-    return step.type === "repeat" || step.type === "pallet"
+    if (step.type === "wait-for") return list.with(at, { ...step, late: change(step.late ?? []) });
+    return step.type === "repeat" || step.type === "while" || step.type === "pallet"
       ? list.with(at, { ...step, steps: change(step.steps) })
       : list;
   });

@@ -2,7 +2,7 @@ import { describe, expect, test } from "vitest";
 import { compose, type Pose } from "../spatial/pose.ts";
 import { palletSlots } from "./pallet.ts";
 import { LOOK_AGAIN_S, flow, unrolled } from "./flow.ts";
-import { emptyProgram, type MoveStep, type Program, type Step } from "./program.ts";
+import { emptyProgram, type MoveStep, type Predicate, type Program, type Step } from "./program.ts";
 import { SignalTable, holds } from "./signals.ts";
 
 const wait = (id: string): Step => ({ id, type: "wait", s: 1 });
@@ -155,5 +155,112 @@ describe("flow of a program", () => {
       holds({ signal: "level", below: 3 }, signals),
       holds({ signal: "on", above: 0.5 }, signals),
     ]).toEqual([false, true, true, true]);
+  });
+});
+
+describe("flow of a program that computes", () => {
+  const counting = (...steps: Step[]): Program => ({
+    ...of(...steps),
+    variables: { n: { type: "int" }, ready: { type: "bool" } },
+    signals: { part: { kind: "digital-in" } },
+  });
+  const less = (most: number): Predicate => ({ expression: { op: "<", of: [{ variable: "n" }, most] } });
+  const add = (id: string, by = 1): Step => ({
+    id,
+    type: "assign",
+    variable: "n",
+    to: { op: "+", of: [{ variable: "n" }, by] },
+  });
+  const loop = (id: string, when: Predicate, ...steps: Step[]): Step => ({ id, type: "while", when, steps });
+  const choice = (id: string, when: Predicate, then: Step[], otherwise: Step[]): Step => ({
+    id,
+    type: "if",
+    when,
+    then,
+    else: otherwise,
+  });
+
+  test("a counted loop goes round until its condition is false; what only computes takes no time", () => {
+    const program = counting(loop("w", less(3), wait("a"), add("n")), choice("i", less(3), [wait("x")], [wait("y")]));
+    expect(ids(program)).toBe("a a a y");
+    expect([...unrolled(counting(loop("w", less(1000), add("n")), wait("z")))].map(step => step.id)).toEqual(["z"]);
+  });
+
+  test("a loop that computes without end is refused with its step", () => {
+    const endless = counting(loop("w", less(1), { id: "a", type: "assign", variable: "n", to: 0 }));
+    expect(() => [...unrolled(endless)]).toThrow(
+      /Step “w”: its loop went round 100000 times without a motion or a wait/,
+    );
+    const divided = counting({ id: "d", type: "assign", variable: "n", to: { op: "div", of: [1, { variable: "n" }] } });
+    expect(() => [...unrolled(divided)]).toThrow(/Step “d”: A number is divided by zero/);
+  });
+
+  test("a computation does not stop a move that is passed; one that looks at a line does", () => {
+    const looks: Step = { id: "l", type: "assign", variable: "ready", to: { signal: "part" } };
+    expect(ids(counting(move("a", 0.01), add("n"), move("b")))).toBe("a b");
+    expect(ids(counting(move("a", 0.01), looks, move("b")))).toBe("a | b");
+  });
+
+  test("a routine is given values by its caller, and its parameters are its own", () => {
+    const program: Program = {
+      ...counting(
+        { id: "c", type: "call", routine: "turns", arguments: { times: 2 } },
+        { id: "d", type: "call", routine: "turns", arguments: { times: { op: "+", of: [{ variable: "n" }, 1] } } },
+      ),
+      parameters: { turns: { times: { type: "int" } } },
+      routines: {
+        turns: [
+          { id: "z", type: "assign", variable: "n", to: 0 },
+          loop("w", { expression: { op: "<", of: [{ variable: "n" }, { variable: "times" }] } }, wait("t"), add("n")),
+          wait("|"),
+        ],
+      },
+    };
+    expect(ids(program)).toBe("t t | t t t |");
+  });
+
+  test("a wait that is late does the steps for that, and a condition is handed over with its variables as values", () => {
+    const late: Step = {
+      id: "w",
+      type: "wait-for",
+      when: { expression: { op: "and", of: [{ signal: "part" }, { op: "<", of: [{ variable: "n" }, 5] }] } },
+      timeout_s: 2,
+      late: [wait("late")],
+    };
+    const program = counting(add("n"), late, wait("z"));
+    expect(ids(program, new SignalTable([["part", true]]))).toBe("w z");
+    expect(ids(program, new SignalTable([["part", false]]))).toBe("w late z");
+    const [first] = unrolled(program);
+    expect(first).toEqual({
+      id: "w",
+      type: "wait-for",
+      timeout_s: 2,
+      late: [],
+      when: { expression: { op: "and", of: [{ signal: "part" }, { op: "<", of: [1, 5] }] } },
+    });
+  });
+
+  test("without inputs, decisions of variables alone are taken and both sides of the others are looked at", () => {
+    const seen = (program: Program): string =>
+      Array.from(flow(program, { rounds: 2 }))
+        .flatMap(event =>
+          event.kind === "step" ? [event.step.id] : ["fork", "other", "join"].includes(event.kind) ? [event.kind] : [],
+        )
+        .join(" ");
+    const part: Predicate = { signal: "part", is: true };
+    expect(seen(counting(choice("i", less(1), [wait("x")], [wait("y")])))).toBe("x");
+    expect(seen(counting(choice("p", part, [add("n")], []), choice("i", less(1), [wait("x")], [wait("y")])))).toBe(
+      "fork other join fork x other y join",
+    );
+    expect(seen(counting(choice("p", part, [wait("a")], []), choice("i", less(1), [wait("x")], [wait("y")])))).toBe(
+      "fork a other join x",
+    );
+    // What a loop changes that goes round as inputs say is not known behind it.
+    expect(seen(counting(loop("w", part, add("n"), wait("a")), choice("i", less(1), [wait("x")], [wait("y")])))).toBe(
+      "fork a a other join fork x other y join",
+    );
+    expect(seen(counting(repeat("r", "forever", choice("i", less(5), [wait("x")], [wait("y")]), add("n"))))).toBe(
+      "fork x other y join fork x other y join",
+    );
   });
 });

@@ -1,5 +1,11 @@
 export * from "./program.ts";
 export * from "./pallet.ts";
+export * from "./expression/index.ts";
+export * from "./predicate.ts";
+export * from "./lower.ts";
+export { variableNameFault } from "./read/variables.ts";
+export { scopeOf } from "./read/scope.ts";
+export * from "./version.ts";
 export * from "./walk.ts";
 export * from "./capabilities.ts";
 export * from "./signals.ts";

@@ -159,7 +159,7 @@ describe("parseProgram", () => {
       "a newer version",
       { ...good, version: 3 },
       "version",
-      "The program is of version 3; this release reads versions up to 1.",
+      "The program is of version 3; this release reads versions up to 2.",
     ],
     [
       "joint count",
@@ -183,7 +183,7 @@ describe("parseProgram", () => {
       "unknown type",
       firstStep({ type: "weld" }),
       "steps[0].type",
-      'Step “s1” is of type "weld"; a step is one of move, wait, gripper, set, wait-for, payload, message, stop, comment, call, repeat, if, pallet.',
+      'Step “s1” is of type "weld"; a step is one of move, wait, gripper, set, wait-for, payload, message, stop, comment, assign, call, repeat, while, if, pallet.',
     ],
     [
       "unknown tool",
@@ -256,7 +256,7 @@ describe("parseProgram", () => {
       "an unknown type inside a block",
       only({ id: "r", type: "repeat", times: 2, steps: [{ id: "x", type: "weld" }] }),
       "steps[0].steps[0].type",
-      'Step “x” is of type "weld"; a step is one of move, wait, gripper, set, wait-for, payload, message, stop, comment, call, repeat, if, pallet.',
+      'Step “x” is of type "weld"; a step is one of move, wait, gripper, set, wait-for, payload, message, stop, comment, assign, call, repeat, while, if, pallet.',
     ],
     [
       "half a time",
@@ -461,6 +461,121 @@ describe("parseProgram", () => {
   });
 });
 
+describe("version 2", () => {
+  const newer = {
+    format: "twincell.program",
+    version: 2,
+    name: "Counted",
+    robot: "staubli_rx90l",
+    signals: { part: { kind: "digital-in", address: 3 }, lamp: { kind: "digital-out" } },
+    variables: { count: { type: "int", initial: 3 }, drop: { type: "num", unit: "m" }, ready: { type: "bool" } },
+    parameters: { place: { layer: { type: "int" } } },
+    routines: {
+      place: [
+        {
+          id: "r1",
+          type: "assign",
+          variable: "drop",
+          to: { op: "*", of: [{ variable: "layer" }, { value: 0.04, unit: "m" }] },
+        },
+      ],
+    },
+    steps: [
+      { id: "a", type: "assign", variable: "ready", to: { signal: "part" } },
+      {
+        id: "w",
+        type: "while",
+        when: { expression: { op: "<", of: [{ variable: "count" }, 9] } },
+        steps: [
+          {
+            id: "c",
+            type: "call",
+            routine: "place",
+            arguments: { layer: { op: "+", of: [{ variable: "count" }, 1] } },
+          },
+        ],
+      },
+      {
+        id: "p",
+        type: "wait-for",
+        when: { signal: "part", is: true },
+        timeout_s: 2,
+        late: [{ id: "l", type: "message", text: "No part." }],
+      },
+    ],
+  };
+
+  test("a program with variables, arguments and steps for being late reads and writes to itself", () => {
+    const answer = parseProgram(newer);
+    expect(answer).toMatchObject({ kind: "program", program: { version: 2, ...newer } });
+    const text = serializeProgram((answer as Extract<typeof answer, { kind: "program" }>).program);
+    const again = parseProgram(text);
+    expect(again.kind === "program" && serializeProgram(again.program)).toBe(text);
+    expect(text).toContain('"late": [\n   {"id":"l"');
+  });
+
+  test("a program that uses nothing new stays version 1, byte for byte, whichever version it says", () => {
+    const old = parseProgram(good);
+    const lifted = parseProgram({ ...good, version: 2 });
+    if (old.kind !== "program" || lifted.kind !== "program") throw new Error("a program was expected");
+    expect(serializeProgram(old.program)).toContain('"version": 1');
+    expect(serializeProgram(lifted.program)).toBe(serializeProgram(old.program));
+    expect(serializeProgram({ ...old.program, variables: {} })).toBe(serializeProgram(old.program));
+    expect(serializeProgram({ ...old.program, variables: { n: { type: "int" } } })).toContain('"version": 2');
+  });
+
+  test.each([
+    ["a variable named as a signal", { variables: { part: { type: "bool" } } }, "variables.part", /name that is taken/],
+    [
+      "a variable named as an operator",
+      { variables: { Mod: { type: "int" } } },
+      "variables.Mod",
+      /means something else/,
+    ],
+    ["a unit of a whole number", { variables: { n: { type: "int", unit: "m" } } }, "variables.n.unit", /only a num/],
+    ["half a whole number", { variables: { n: { type: "int", initial: 0.5 } } }, "variables.n.initial", /whole number/],
+    ["parameters of nobody", { parameters: { pick: { n: { type: "int" } } } }, "parameters.pick", /no routine “pick”/],
+    [
+      "an assignment to nothing",
+      { steps: [{ id: "a", type: "assign", variable: "cuont", to: 1 }] },
+      "steps[0].variable",
+      /it has count, drop, ready/,
+    ],
+    [
+      "a length for a count",
+      { steps: [{ id: "a", type: "assign", variable: "count", to: { value: 1, unit: "m" } }] },
+      "steps[0].to",
+      /a number in m; here a whole number is wanted/,
+    ],
+    [
+      "a call without its argument",
+      { steps: [{ id: "a", type: "call", routine: "place" }] },
+      "steps[0].arguments",
+      /without a value for “layer”/,
+    ],
+    [
+      "an argument that nobody takes",
+      { steps: [{ id: "a", type: "call", routine: "place", arguments: { layer: 1, row: 2 } }] },
+      "steps[0].arguments.row",
+      /it takes layer/,
+    ],
+    [
+      "a parameter outside its routine",
+      { steps: [{ id: "a", type: "assign", variable: "count", to: { variable: "layer" } }] },
+      "steps[0].to",
+      /no variable “layer” here/,
+    ],
+    [
+      "late steps without a limit",
+      { steps: [{ id: "a", type: "wait-for", when: { signal: "part", is: true }, late: [] }] },
+      "steps[0].late",
+      /give it timeout_s/,
+    ],
+  ])("names the place: %s", (_, change, path, sentence) => {
+    expect(faultsOf({ ...newer, ...change })).toContainEqual({ path, sentence: expect.stringMatching(sentence) });
+  });
+});
+
 describe("jsonFault", () => {
   test("agrees with JSON.parse on what is JSON", () => {
     const isJson = (text: string): boolean => {
@@ -510,7 +625,7 @@ describe("docs/program.schema.json", () => {
     expect(kinds.map(kind => kind.properties?.type?.const)).toEqual([...STEP_TYPES]);
     for (const kind of kinds) {
       const sample = good.steps.find(step => step.type === kind.properties?.type?.const);
-      expect(fieldsOf(kind)).toEqual(readerKnows(only({ ...sample, zz: 1 })));
+      expect(fieldsOf(kind)).toEqual(readerKnows(only({ type: kind.properties?.type?.const, ...sample, zz: 1 })));
     }
     const { part } = good.signals;
     const { tray } = good.pallets;

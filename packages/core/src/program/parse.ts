@@ -5,8 +5,10 @@ import { readPallets } from "./read/pallets.ts";
 import { Reader, keys, type Fields } from "../json/reader.ts";
 import { readSignals } from "./read/signals.ts";
 import { readSteps } from "./read/steps.ts";
+import { readParameters, readVariables } from "./read/variables.ts";
 import type { ProgramScope } from "./read/scope.ts";
 import { readGroups, readPoses } from "./read/tables.ts";
+import { versionOf } from "./version.ts";
 import { callCycle } from "./walk.ts";
 
 /** What is wrong with a program: where ("steps[2].target.q[0]", or "line 3, column 7") and one sentence about it. */
@@ -31,10 +33,10 @@ const MOST_FAULTS = 50;
  * Reads the PROGRAM contract from JSON text or from a value that came out of JSON. This is the only door: behind it
  * every number is finite, every id is unique, every tool and frame exists, and every quaternion has length 1.
  *
- * Missing `name`, tables (`tools`, `frames`, `groups`, `signals`, `pallets`, `routines`) and `blend_m` get their
- * defaults, a pose without `frame` is in "world" and without `tool` of "flange". A key that no contract knows is a
- * fault, because it is usually a spelling mistake that would change the motion; keys that begin with "$", "_" or "x-"
- * are left out without a word.
+ * Missing `name`, tables (`tools`, `frames`, `groups`, `signals`, `variables`, `parameters`, `pallets`, `routines`) and
+ * `blend_m` get their defaults, a pose without `frame` is in "world" and without `tool` of "flange". A key that no
+ * contract knows is a fault, because it is usually a spelling mistake that would change the motion; keys that begin
+ * with "$", "_" or "x-" are left out without a word. Files of version 1 are lifted as they are.
  *
  * Never throws.
  */
@@ -71,14 +73,14 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
       },
     ]);
   }
-  if (top.version !== PROGRAM_VERSION) {
+  if (top.version !== 1 && top.version !== PROGRAM_VERSION) {
     const newer = typeof top.version === "number" && top.version > PROGRAM_VERSION;
     return refuse([
       {
         path: "version",
         sentence: newer
           ? `The program is of version ${top.version}; this release reads versions up to ${PROGRAM_VERSION}.`
-          : `A program says "version": ${PROGRAM_VERSION}; this one says ${reader.shown(top.version)}.`,
+          : `A program says "version": 1 or ${PROGRAM_VERSION}; this one says ${reader.shown(top.version)}.`,
       },
     ]);
   }
@@ -95,6 +97,8 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
       "frames",
       "groups",
       "signals",
+      "variables",
+      "parameters",
       "pallets",
       "routines",
       "steps",
@@ -109,13 +113,20 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   const pallets = readPallets(reader, top.pallets, frames);
   const written =
     top.routines === undefined ? {} : (reader.object(top.routines, "routines", "the table of routines") ?? {});
+  const names = new Set(Object.keys(written));
+  const variables = readVariables(reader, top.variables, signals);
+  const parameters = readParameters(reader, top.parameters, names, { ...signals, ...variables });
   const around: ProgramScope = {
     robot,
     joints: jointsOf(robot),
     tools,
     frames,
     pallets,
-    routines: new Set(Object.keys(written)),
+    routines: names,
+    signals,
+    variables,
+    parameters,
+    routine: undefined,
     seen: new Map(),
     open: [],
     depth: 0,
@@ -123,29 +134,30 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   const steps = readSteps(reader, top.steps, "steps", "the list of steps", around);
   const routines = readRoutines(reader, written, around);
   if (reader.faults.length > 0) return refuse(reader.faults);
-  return {
-    kind: "program",
-    program: {
-      format: PROGRAM_FORMAT,
-      version: PROGRAM_VERSION,
-      name,
-      robot,
-      tools,
-      frames,
-      groups,
-      signals,
-      pallets,
-      routines,
-      steps,
-    },
+  const program: Program = {
+    format: PROGRAM_FORMAT,
+    version: 1,
+    name,
+    robot,
+    tools,
+    frames,
+    groups,
+    signals,
+    ...(Object.keys(variables).length === 0 ? {} : { variables }),
+    ...(Object.keys(parameters).length === 0 ? {} : { parameters }),
+    pallets,
+    routines,
+    steps,
   };
+  const version = versionOf(program);
+  return { kind: "program", program: version === program.version ? program : { ...program, version } };
 }
 
 function readRoutines(reader: Reader, written: Fields, around: ProgramScope): Program["routines"] {
   const routines = Object.fromEntries(
     Object.entries(written).map(([name, list]) => {
       if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");
-      return [name, readSteps(reader, list, `routines.${name}`, `the routine “${name}”`, around)];
+      return [name, readSteps(reader, list, `routines.${name}`, `the routine “${name}”`, { ...around, routine: name })];
     }),
   );
   const cycle = callCycle(routines);

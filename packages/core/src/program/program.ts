@@ -1,4 +1,5 @@
 import type { Branch } from "../kinematics/branch.ts";
+import type { Expression, ValueType, Variable } from "./expression/expression.ts";
 import type { Pallet } from "./pallet.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
@@ -14,11 +15,14 @@ export type Target =
 /** ratio: of full joint speed, 0 … 1. mps: speed of the TCP. time_s: duration of the whole move. */
 export type Speed = { readonly ratio: number } | { readonly mps: number } | { readonly time_s: number };
 
-/** What a step can wait for or decide by. There is no expression language on purpose: every controller can say this. */
+/** One line and what it is compared with: every controller can say this. */
 export type Condition =
   | { readonly signal: string; readonly is: boolean }
   | { readonly signal: string; readonly above: number }
   | { readonly signal: string; readonly below: number };
+
+/** What a step can wait for or decide by: one line, or an expression that is yes or no. */
+export type Predicate = Condition | { readonly expression: Expression };
 
 interface StepBase {
   readonly id: string;
@@ -69,11 +73,15 @@ export interface SetStep extends StepBase {
   readonly to: boolean | number;
   readonly pulse_s?: number;
 }
-/** Rests until the condition is true; longer than `timeout_s` stops the program with a message. */
+/**
+ * Rests until the condition is true. Longer than `timeout_s` stops the program with a message; with `late` those steps
+ * are done instead, and the program goes on.
+ */
 export interface WaitForStep extends StepBase {
   readonly type: "wait-for";
-  readonly when: Condition;
+  readonly when: Predicate;
   readonly timeout_s?: number;
+  readonly late?: readonly Step[];
 }
 /** What the flange carries from here on, tool included. */
 export interface PayloadStep extends StepBase {
@@ -98,18 +106,32 @@ export interface CommentStep extends StepBase {
   readonly type: "comment";
   readonly text: string;
 }
+/** Gives a variable its value. Parameters of a routine keep theirs. */
+export interface AssignStep extends StepBase {
+  readonly type: "assign";
+  readonly variable: string;
+  readonly to: Expression;
+}
 export interface CallStep extends StepBase {
   readonly type: "call";
   readonly routine: string;
+  /** A value for every parameter of the routine. */
+  readonly arguments?: Readonly<Record<string, Expression>>;
 }
 export interface RepeatStep extends StepBase {
   readonly type: "repeat";
   readonly times: number | "forever";
   readonly steps: readonly Step[];
 }
+/** Goes round as long as the condition is true when it is looked at, before every round. */
+export interface WhileStep extends StepBase {
+  readonly type: "while";
+  readonly when: Predicate;
+  readonly steps: readonly Step[];
+}
 export interface IfStep extends StepBase {
   readonly type: "if";
-  readonly when: Condition;
+  readonly when: Predicate;
   readonly then: readonly Step[];
   readonly else?: readonly Step[];
 }
@@ -131,9 +153,9 @@ export type PrimitiveStep =
   | MessageStep
   | StopStep;
 /** Steps that hold other steps. */
-export type BlockStep = RepeatStep | IfStep | PalletStep;
+export type BlockStep = RepeatStep | WhileStep | IfStep | PalletStep;
 /** Grows by new step types. */
-export type Step = PrimitiveStep | CommentStep | CallStep | BlockStep;
+export type Step = PrimitiveStep | AssignStep | CommentStep | CallStep | BlockStep;
 
 export const STEP_TYPES = [
   "move",
@@ -145,8 +167,10 @@ export const STEP_TYPES = [
   "message",
   "stop",
   "comment",
+  "assign",
   "call",
   "repeat",
+  "while",
   "if",
   "pallet",
 ] as const satisfies readonly Step["type"][];
@@ -166,7 +190,8 @@ export interface SignalLine {
 /** The vendor-neutral program. Frame "world" and tool "flange" always exist and need no entry. */
 export interface Program {
   readonly format: "twincell.program";
-  readonly version: 1;
+  /** 2 where variables or expressions are used; what uses none is written as version 1, as it always was. */
+  readonly version: 1 | 2;
   readonly name: string;
   /** Id of the robot it was taught on. */
   readonly robot: string;
@@ -174,6 +199,10 @@ export interface Program {
   readonly frames: Readonly<Record<string, Pose<"world", "frame">>>;
   readonly groups: Readonly<Record<string, Group>>;
   readonly signals: Readonly<Record<string, SignalLine>>;
+  /** What the program remembers; no name is that of a signal. */
+  readonly variables?: Readonly<Record<string, Variable>>;
+  /** Values that routines are given when they are called, by the routine's name. */
+  readonly parameters?: Readonly<Record<string, Readonly<Record<string, ValueType>>>>;
   /** No name is also that of a frame. */
   readonly pallets: Readonly<Record<string, Pallet>>;
   /** Steps that `call` does; none calls itself, not even through others. */
@@ -183,12 +212,12 @@ export interface Program {
 
 /** What a program file says of itself. */
 export const PROGRAM_FORMAT = "twincell.program";
-export const PROGRAM_VERSION = 1;
+export const PROGRAM_VERSION = 2;
 
 /** An empty program for that robot. */
 export const emptyProgram = (robot: string, name = "Program"): Program => ({
   format: PROGRAM_FORMAT,
-  version: PROGRAM_VERSION,
+  version: 1,
   name,
   robot,
   tools: {},

@@ -1,11 +1,13 @@
 import type { Program, Step } from "./program.ts";
+import { versionOf } from "./version.ts";
 
 /** Tables that programs had before others: always written. The others are left out when they are empty. */
 const ALWAYS: ReadonlySet<string> = new Set(["tools", "frames", "groups"]);
 
 /** The program as JSON text, one step a line, so that a version control shows which steps changed. */
 export function serializeProgram(program: Program): string {
-  const { steps, routines, ...rest } = program;
+  const { steps, routines, ...others } = program;
+  const rest = { ...others, version: versionOf(program) };
   const kept = Object.entries(rest).filter(
     ([key, value]) => ALWAYS.has(key) || typeof value !== "object" || Object.keys(value).length > 0,
   );
@@ -24,7 +26,12 @@ function written(steps: readonly Step[], indent: string): string {
 /** A block opens on its own line, with its steps below it. */
 function line(step: Step, indent: string): string {
   switch (step.type) {
+    case "wait-for": {
+      const { late, ...rest } = step;
+      return late === undefined ? JSON.stringify(step) : `${opened(rest)}, "late": ${written(late, indent)}}`;
+    }
     case "repeat":
+    case "while":
     case "pallet": {
       const { steps, ...rest } = step;
       return `${opened(rest)}, "steps": ${written(steps, indent)}}`;

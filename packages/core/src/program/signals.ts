@@ -1,11 +1,28 @@
+import { PlainFault } from "../fault.ts";
 import type { Signals } from "../signals.ts";
-import type { Condition } from "./program.ts";
+import { evaluate, type ExpressionValues } from "./expression/evaluate.ts";
+import type { Predicate } from "./program.ts";
 
 /**
  * Whether a condition is true now. A digital line counts as 0 or 1 beside a level, an analogue one as on when it is not
  * 0.
+ *
+ * @param variable  what variables are worth; none exist when left out.
  */
-export function holds(when: Condition, signals: Pick<Signals, "read">): boolean {
+export function holds(
+  when: Predicate,
+  signals: Pick<Signals, "read">,
+  variable: ExpressionValues["variable"] = () => undefined,
+): boolean {
+  if ("expression" in when) {
+    const answer = evaluate(when.expression, { variable, signal: name => signals.read(name) });
+    if (answer.kind === "value") return answer.value === true || (answer.value !== false && answer.value !== 0);
+    throw new PlainFault(
+      "program.expression",
+      answer.kind === "failed" ? answer.sentence : "The condition looks at a variable that has no value here.",
+      "Look at the expression of the step.",
+    );
+  }
   const value = signals.read(when.signal);
   if ("is" in when) return (typeof value === "number" ? value !== 0 : value) === when.is;
   const level = typeof value === "number" ? value : value ? 1 : 0;

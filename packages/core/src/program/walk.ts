@@ -4,8 +4,11 @@ import type { BlockStep, Program, Step } from "./program.ts";
 export function listsOf(step: Step): readonly (readonly Step[])[] {
   switch (step.type) {
     case "repeat":
+    case "while":
     case "pallet":
       return [step.steps];
+    case "wait-for":
+      return step.late === undefined ? [] : [step.late];
     case "if":
       return step.else === undefined ? [step.then] : [step.then, step.else];
     default:
@@ -14,13 +17,18 @@ export function listsOf(step: Step): readonly (readonly Step[])[] {
 }
 
 export const isBlock = (step: Step): step is BlockStep =>
-  step.type === "repeat" || step.type === "if" || step.type === "pallet";
+  step.type === "repeat" || step.type === "while" || step.type === "if" || step.type === "pallet";
 
 /** The same block with its lists put through `change`; the very same step when no list changed. */
 export function withLists<S extends Step>(step: S, change: (steps: readonly Step[]) => readonly Step[]): S;
 export function withLists(step: Step, change: (steps: readonly Step[]) => readonly Step[]): Step {
   switch (step.type) {
+    case "wait-for": {
+      const late = step.late === undefined ? undefined : change(step.late);
+      return late === step.late || late === undefined ? step : { ...step, late };
+    }
     case "repeat":
+    case "while":
     case "pallet": {
       const steps = change(step.steps);
       return steps === step.steps ? step : { ...step, steps };

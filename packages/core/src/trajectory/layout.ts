@@ -14,7 +14,7 @@ import type { Plan } from "./plan.ts";
 import { PlanWriter, inRuns, type MoveFlowEvent, type FlowPart, type PlanNote, type PlanOptions } from "./planner.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
 import type { RunStop } from "./run-path.ts";
-import { flow, type PlaceVisit } from "../program/flow.ts";
+import { flow, type FlowFailure, type PlaceVisit } from "../program/flow.ts";
 import type { MoveStep, Program, Step } from "../program/program.ts";
 import { everyStep } from "../program/walk.ts";
 
@@ -65,6 +65,8 @@ export interface Layout {
   readonly evaluated: ReadonlySet<string>;
   /** Decisions that lead to too many postures: what follows was not looked at from all of them. */
   readonly unjudged: ReadonlySet<string>;
+  /** Steps at which the program cannot go on. */
+  readonly failures: readonly { readonly step: Step; readonly why: FlowFailure; readonly at_s: number }[];
   /** Nothing was left out: a step that is not `evaluated` is never reached. */
   readonly complete: boolean;
   /** Loops were cut short because the program has more than this many steps. */
@@ -102,7 +104,7 @@ export function layOutProgram(program: Program, robot: Robot, options: LayoutOpt
   let complete = true;
   let parts: LinearPart[] = [];
   for (const part of inRuns(flow(program, { rounds: ROUNDS, mostSteps: MOST_LAID_OUT }))) {
-    if (part.kind === "run" || part.kind === "step" || part.kind === "passed") {
+    if (part.kind === "run" || part.kind === "step" || part.kind === "passed" || part.kind === "assigned") {
       parts.push(part);
       continue;
     }
@@ -115,7 +117,7 @@ export function layOutProgram(program: Program, robot: Robot, options: LayoutOpt
   return sheet.finish(complete);
 }
 
-type LinearPart = Extract<FlowPart, { kind: "run" | "step" | "passed" }>;
+type LinearPart = Extract<FlowPart, { kind: "run" | "step" | "passed" | "assigned" }>;
 type Turning = Exclude<FlowPart, LinearPart>;
 /** A posture the robot may be in, and how it was chosen to go on from there. */
 interface Chain {
@@ -134,6 +136,7 @@ class Sheet {
   private readonly solver: ContinuitySolver;
   private readonly obstacles: Obstacle[] = [];
   private readonly impasses: Impasse[] = [];
+  private readonly failures: Layout["failures"][number][] = [];
   private readonly ends = new Map<string, Ends>();
   private readonly moves = new Map<string, Move>();
   private readonly starts = new Map<string, Float64Array>();
@@ -200,6 +203,10 @@ class Sheet {
         this.postures = after.slice(0, MOST_POSTURES).map(({ q }) => q);
         return this.stand(this.postures);
       }
+      case "failed":
+        this.failures.push({ step: happening.step, why: happening.why, at_s: this.writer.now_s });
+        this.evaluated.add(happening.step.id);
+        return;
       case "end":
         this.postures = [];
     }
@@ -259,7 +266,7 @@ class Sheet {
   }
 
   finish(complete: boolean): Layout {
-    const { writer, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged } = this;
+    const { writer, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged, failures } = this;
     return {
       plan: writer.plan(this.program.robot),
       notes: writer.notes,
@@ -271,6 +278,7 @@ class Sheet {
       turns,
       evaluated,
       unjudged,
+      failures,
       complete,
       cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined,
     };

@@ -1,4 +1,4 @@
-import { flow, type FlowEvent } from "../program/flow.ts";
+import { flow, type FlowEvent, type FlowOptions } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
 import { motionAssumptions } from "../model/jerk.ts";
@@ -89,6 +89,11 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
       if (part.step.type !== "move") writer.rest(part.step, part.stands);
       continue;
     }
+    if (part.kind === "failed") {
+      const { code, sentence, hint } = part.why;
+      const stuck: Stuck = { step: part.step.id, code, sentence, hint };
+      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
+    }
     if (part.kind !== "run") continue;
     let moves: readonly Move[] = runs[run++]!;
     const count = moves.length;
@@ -129,10 +134,18 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
 function ahead(program: Program, inputs: NonNullable<PlanOptions["inputs"]>): FlowPart[] {
   const signals = new SignalTable(Object.entries(inputs));
   const parts: FlowPart[] = [];
-  for (const part of inRuns(
-    flow(program, { decide: when => holds(when, signals), rounds: 1, mostSteps: MOST_PLANNED }),
-  )) {
+  const options: FlowOptions = {
+    decide: (when, variable) => holds(when, signals, variable),
+    read: signal => signals.read(signal),
+    // What is waited for comes in time, and a loop that looks at lines ends after its first round.
+    met: () => true,
+    rounds: 1,
+    lineRounds: 1,
+    mostSteps: MOST_PLANNED,
+  };
+  for (const part of inRuns(flow(program, options))) {
     parts.push(part);
+    if (part.kind === "failed") break;
     if (part.kind === "step" && part.step.type === "set") remember(part.step, signals);
   }
   return parts;
@@ -164,7 +177,8 @@ export function* inRuns(happenings: Iterable<FlowEvent>): Generator<FlowPart, vo
   let moves: MoveFlowEvent[] = [];
   for (const happening of happenings) {
     const last = moves.at(-1);
-    if (happening.kind === "passed" && happening.step.type === "comment") {
+    // Neither a remark nor what is computed stops the robot.
+    if (happening.kind === "assigned" || (happening.kind === "passed" && happening.step.type === "comment")) {
       yield happening;
       continue;
     }

@@ -9,6 +9,7 @@ import { explainStop, type Stuck } from "./stop.ts";
 import type { Signals } from "../signals.ts";
 import type { MoveStep, PayloadStep, Step, WaitForStep } from "../program/program.ts";
 import { Pulses } from "../program/pulses.ts";
+import { predicateWords } from "../program/predicate.ts";
 import { SignalTable, holds } from "../program/signals.ts";
 
 /** What the stepper is doing after an `advance`. Lent until the next call. */
@@ -225,10 +226,16 @@ export class Stepper {
     }
     this.t_s += left_s;
     if (step.timeout_s !== undefined && this.t_s >= step.timeout_s - 1e-9) {
+      // The program says what is done then.
+      if (step.late !== undefined) {
+        this.waitFor = undefined;
+        this.t_s = 0;
+        return true;
+      }
       this.fail({
         step: step.id,
         code: "signals.timeout",
-        sentence: `Step “${step.id}” waited ${step.timeout_s} s for the signal “${step.when.signal}”.`,
+        sentence: `Step “${step.id}” waited ${step.timeout_s} s for ${predicateWords(step.when)}.`,
         hint: "Look why the signal did not come, or give it more time.",
       });
     }
@@ -419,15 +426,17 @@ export class Stepper {
       case "stop":
         this.end();
         return;
+      case "assign":
       case "call":
       case "repeat":
+      case "while":
       case "if":
       case "pallet":
         state.step = step.id;
         this.fail({
           step: step.id,
           code: "program.block",
-          sentence: `Step “${step.id}” is a ${step.type}, which only its program can carry out.`,
+          sentence: `Step “${step.id}” is of type ${step.type}, which only its program can carry out.`,
           hint: "Hand over the program's unrolled steps.",
         });
         return;

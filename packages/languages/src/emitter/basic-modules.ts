@@ -1,4 +1,4 @@
-import { everyStep, type EmittedFile, type Step } from "@twincell/core";
+import { everyStep, type EmittedFile, type Step, type Variable } from "@twincell/core";
 import { asciiText } from "../parser/index.ts";
 import { BasicProgram, inUse, type Add, type BasicWords, type InUse } from "./basic-program.ts";
 import { UnsupportedStep, called } from "./cannot.ts";
@@ -13,6 +13,8 @@ export interface ModuleWords extends BasicWords {
   /** What gives a name to a number. */
   readonly define: string;
   readonly main: string;
+  /** The declaration of a variable that all routines share. */
+  readonly global: (name: string, type: Variable["type"]) => string;
   readonly open: (name: string) => string;
   readonly close: string;
   /** Most frames and tools that the controller keeps, and what it calls frames. */
@@ -49,6 +51,8 @@ export abstract class BasicModules extends BasicProgram {
     const { main, open, close, file } = this.words;
     const whole = new BlockWriter();
     for (const line of [...this.head(), ...this.constants()]) whole.add(line);
+    for (const [name, { type }] of Object.entries(program.variables ?? {}))
+      whole.add(this.words.global(this.variableName(name), type));
     for (const [name, steps] of [
       [main, program.steps] as const,
       ...Object.entries(program.routines).map(([routine, list]) => [this.named("routine", routine), list] as const),
@@ -76,6 +80,9 @@ export abstract class BasicModules extends BasicProgram {
   }
   protected line(signal: string): string {
     return this.named("signal", signal);
+  }
+  protected variableName(name: string): string {
+    return this.named("variable", name);
   }
   /** The number of a frame; 0 for the base. */
   protected numberOf(frame: string): number {

@@ -2,7 +2,10 @@ import {
   compose,
   identity,
   rotate,
+  isCondition,
+  listsOf,
   type Condition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type Pallet,
@@ -16,7 +19,9 @@ import {
 } from "@twincell/core";
 import { asciiText } from "../parser/index.ts";
 import { UnsupportedStep, called } from "./cannot.ts";
+import { PENDANT_UNITS, assignText, expressionText, linesLookedAt, type ExpressionWords } from "./expressions.ts";
 import type { Names } from "./names.ts";
+import { fixed } from "./numbers.ts";
 import { patternOf, pitchTerm } from "./pattern.ts";
 import type { Place } from "./place.ts";
 import { BlockStepWriter } from "./steps.ts";
@@ -27,6 +32,8 @@ export interface BasicWords {
   readonly endIf: string;
   /** The lines around a loop that never ends. */
   readonly forever: readonly [open: string, close: string];
+  /** The line that opens a loop with a condition, and the one that closes it. */
+  readonly whileTrue: readonly [open: string, close: string];
   /** Most decimals of a length in millimetres. */
   readonly mm: (value_m: number) => string;
 }
@@ -58,6 +65,8 @@ export abstract class BasicProgram extends BlockStepWriter {
   protected abstract message(text: string, add: Add): void;
   protected abstract stop(add: Add): void;
   protected abstract call(routine: string, add: Add): void;
+  /** The name of a variable of the program. */
+  protected abstract variableName(name: string): string;
   /** A fresh variable that counts. */
   protected abstract counter(name: string): string;
   /** The place of a pattern from which steps inside it count. */
@@ -116,6 +125,12 @@ export abstract class BasicProgram extends BlockStepWriter {
         return this.stop(add);
       case "comment":
         return add(`'- ${asciiText(step.text)}`.trimEnd());
+      case "assign":
+        return add(assignText(step, " = ", this.computing, this.place.program));
+      case "while": {
+        const [open, close] = this.words.whileTrue;
+        return this.loop(`${open} ${this.condition(step.when, step)}`, close, step);
+      }
       case "call":
         this.call(step.routine, add);
         return this.begin();
@@ -136,7 +151,35 @@ export abstract class BasicProgram extends BlockStepWriter {
     /* most languages say nothing */
   }
 
-  private condition(when: Condition, step: Step): string {
+  /** Yes is kept as 1 and no as 0. */
+  protected readonly computing: ExpressionWords = {
+    truth: ["0", "1"],
+    number: value => fixed(value, 9),
+    variable: name => this.variableName(name),
+    truthVariable: name => `${this.variableName(name)} = 1`,
+    line: (signal, step) => this.condition({ signal, is: true }, step),
+    not: inner => `Not ${inner}`,
+    signs: {
+      and: " And ",
+      or: " Or ",
+      "=": " = ",
+      "<>": " <> ",
+      "<": " < ",
+      "<=": " <= ",
+      ">": " > ",
+      ">=": " >= ",
+      "+": " + ",
+      "-": " - ",
+      "*": " * ",
+      "/": " / ",
+      mod: " Mod ",
+    },
+    calls: { abs: x => `Abs(${x})` },
+    scale: PENDANT_UNITS,
+  };
+
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.computing, this.place.program, step);
     if (!("is" in when))
       throw new UnsupportedStep(
         step.id,
@@ -228,13 +271,8 @@ export function inUse({ steps, routines, pallets: known }: Program): InUse {
   };
   const look = (list: readonly Step[]): void => {
     for (const step of list) {
-      const signal =
-        step.type === "set"
-          ? step.signal
-          : step.type === "wait-for" || step.type === "if"
-            ? step.when.signal
-            : undefined;
-      if (signal !== undefined && !signals.has(signal)) signals.set(signal, step);
+      for (const signal of step.type === "set" ? [step.signal] : linesLookedAt(step))
+        if (!signals.has(signal)) signals.set(signal, step);
       if (step.type === "move") {
         for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
           if (target.tool !== undefined && target.tool !== "flange") tools.add(target.tool);
@@ -245,11 +283,7 @@ export function inUse({ steps, routines, pallets: known }: Program): InUse {
         pallets.add(step.pallet);
         frame(known[step.pallet]!.frame);
       }
-      if (step.type === "if") {
-        look(step.then);
-        look(step.else ?? []);
-      }
-      if (step.type === "repeat" || step.type === "pallet") look(step.steps);
+      for (const inner of listsOf(step)) look(inner);
     }
   };
   for (const list of [steps, ...Object.values(routines)]) look(list);

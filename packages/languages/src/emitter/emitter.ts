@@ -1,6 +1,8 @@
 import {
   identity,
+  lowered,
   sectionForLanguage,
+  type Capability,
   type Dialect,
   type EmittedFile,
   type Program,
@@ -16,6 +18,8 @@ export interface Emitter {
   /** What the language is called. */
   readonly language: string;
   readonly cannot: Dialect["cannot"];
+  /** What is written with other statements, as its programmers do. */
+  readonly idioms?: readonly Capability[];
   readonly write: (place: Place, section: VendorSection) => EmittedFile;
   /** What the user should know of a text that was written. */
   readonly warnings: (program: Program) => readonly string[];
@@ -23,8 +27,9 @@ export interface Emitter {
 
 /** One file, or the step that stands in the way: never a part of a program. */
 export const emitterOf =
-  ({ id, language, cannot, write, warnings }: Emitter): Dialect["emit"] =>
-  (program, robot, worldFromBase = identity()) => {
+  ({ id, language, cannot, idioms = [], write, warnings }: Emitter): Dialect["emit"] =>
+  (taught, robot, worldFromBase = identity()) => {
+    const program = lowered(taught, { idioms, cannot });
     const section = sectionForLanguage(robot, id);
     if (section === undefined)
       return {

@@ -10,6 +10,7 @@ export * from "./split.ts";
 export * from "./basic-program.ts";
 export * from "./basic-modules.ts";
 export * from "./six-numbers.ts";
+export * from "./expressions.ts";
 export * from "./emitter.ts";
 export * from "./line-ranges.ts";
 export * from "./shown-axes.ts";

@@ -1,4 +1,4 @@
-import type { MoveStep, Step } from "@twincell/core";
+import { isPassedOver, type MoveStep, type Step } from "@twincell/core";
 import { remark } from "./names.ts";
 import type { Place } from "./place.ts";
 import { BlockWriter } from "./text-writer.ts";
@@ -31,11 +31,11 @@ export abstract class StepWriter {
     const outer = this.group;
     for (const [i, step] of steps.entries()) {
       this.heading(step);
-      // Nobody stops for a remark.
+      // Nobody stops for a remark, or for what is computed.
       let next = i + 1;
-      while (steps[next]?.type === "comment") next++;
+      for (let after = steps[next]; after !== undefined && isPassedOver(after); after = steps[next]) next++;
       this.step(step, steps[next]);
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
+      if (!isPassedOver(step) && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
     }
     this.group = outer;
   }
@@ -60,7 +60,7 @@ export abstract class BlockStepWriter extends StepWriter {
     this.steps(steps);
   }
 
-  protected loop(head: string, end: string, step: Extract<Step, { type: "repeat" }>): void {
+  protected loop(head: string, end: string, step: Extract<Step, { type: "repeat" | "while" }>): void {
     this.out.block(head, end, step.id, () => {
       this.inside(step.steps, step.id);
     });

@@ -111,6 +111,13 @@ export function walkMoves(
         return move(step);
       case "repeat":
         return walk(step.steps) ?? (step.times === 1 ? undefined : walk(step.steps));
+      case "while": {
+        // None, one or more rounds.
+        const before = starts;
+        const flaw = walk(step.steps) ?? walk(step.steps);
+        starts = distinct([...before, ...starts]);
+        return flaw;
+      }
       case "if": {
         const before = starts;
         const flaw = walk(step.then);

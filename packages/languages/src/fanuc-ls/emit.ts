@@ -1,5 +1,7 @@
 import {
   everyStep,
+  lowered,
+  type Capability,
   type Dialect,
   type Emitted,
   type MoveStep,
@@ -12,6 +14,8 @@ import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../e
 import { GRIPPER_OUTPUT } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["late", "wait-expression", "arguments", "truth-values"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "TP passes points by CNT and has no spline." },
   {
@@ -30,7 +34,8 @@ const MOST_STEPS = 1500;
 export const FASTEST_MMPS = 2000;
 
 /** The programs, one file each, or the step that stands in the way: never a part of a program. */
-export function emitFanucLs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitFanucLs(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const convention = sectionForLanguage(robot, "fanuc-ls");
   if (convention === undefined) {
     return {

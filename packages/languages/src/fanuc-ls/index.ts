@@ -1,6 +1,6 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
+import { CANNOT, IDIOMS, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
 import { interpretFanucLs, parseFanucLs } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -16,9 +16,10 @@ export const fanucLs: Dialect = skippingDialect({
   id: "fanuc-ls",
   brand: "FANUC",
   name: "FANUC TP",
-  extensions: [".ls"],
+  extensions: [".ls", ".va"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   // Whole percent, whole mm/s, hundredths of a second; angles and lengths in thousandths: six joints of a listing
   // together move the tool by no more.
   resolution: {

@@ -3,6 +3,7 @@ import { TextError, textFault } from "../parser/index.ts";
 import { blockEntryPoints, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/source.ts";
 import { Machine } from "./run/machine.ts";
+import { assumption } from "./run/setups.ts";
 
 /** A program with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 200_000;
@@ -19,19 +20,14 @@ export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader =
   notExecuted: ({ kept }) => kept,
   script: (source, robot, worldFromBase) => ({
     title: source.title,
-    machine: (declared, signals) => new Machine(source, robot, worldFromBase, declared, signals, false),
+    machine: (declared, signals, notices) =>
+      new Machine(source, robot, worldFromBase, declared, signals, false, notices),
     writer: declared => new Machine(source, robot, worldFromBase, declared, undefined, true),
     run: machine => machine.main(),
     block: machine => machine.open(),
     unrolled: source.hasJumps ? executed : undefined,
     warnings: ({ assumed }) => [
-      ...[...assumed].map(([name, at]) =>
-        textFault(
-          at,
-          `${name.replace(" ", "[")}=PR[n]`,
-          `${name} is set up nowhere in the text: it is taken to be no different from the ${name.startsWith("UF") ? "world" : "flange"}.`,
-        ),
-      ),
+      ...[...assumed].map(([name, at]) => textFault(at, `${name.replace(" ", "[")}=PR[n]`, assumption(name))),
       ...(source.hasJumps
         ? [
             textFault(

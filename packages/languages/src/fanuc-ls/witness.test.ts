@@ -171,9 +171,19 @@ describe("executing TP", () => {
     expect(there("F U T, 0, 0, 0").target).toMatchObject({
       branch: { shoulder: "front", elbow: "up", wrist: "negative" },
     });
-    expect(faultOf(listing("A", ["J P[1] 10% FINE"], [at(1, [640, 0, 0, 180, 0, 0], "N U B, 0, 0, 0")]))).toMatchObject(
-      { sentence: "The position is not reached in its configuration." },
-    );
+    // Kept as steps it is refused; executed as it is the nearest posture is taken, which is said.
+    const behind = listing("A", ["J P[1] 10% FINE"], [at(1, [640, 0, 0, 180, 0, 0], "N U B, 0, 0, 0")]);
+    expect(fanucLs.parse(behind, robot)).toMatchObject({
+      faults: [{ sentence: "The position is not reached in its configuration." }],
+    });
+    expect(fanucLs.interpret(behind, robot)).toMatchObject({
+      kind: "ready",
+      notExecuted: expect.arrayContaining([
+        expect.objectContaining({
+          sentence: expect.stringMatching(/does not reach the position in its configuration/),
+        }),
+      ]) as unknown,
+    });
     const turned = there("N U T, 0, 0, -1").target;
     expect("q" in turned && turned.q.map(angle => Math.round(deg(angle)))).toEqual([10, 20, 30, 20, -60, 30 - 360]);
   });
@@ -354,8 +364,9 @@ describe("executing TP", () => {
       line: 8,
       sentence: "P[7] is not in the list of positions.",
     });
-    expect(faultOf(listing("A", ["CALL NOBODY"]))).toMatchObject({
-      sentence: "The program NOBODY is not in the text.",
+    expect(fanucLs.parse(listing("A", ["CALL NOBODY"]), robot)).toMatchObject({
+      kind: "not-understood",
+      faults: [{ sentence: "The program NOBODY is not in the text." }],
     });
     expect(faultOf(listing("A", ["WEAVE SINE[1]"]))).toMatchObject({
       line: 8,
@@ -363,7 +374,7 @@ describe("executing TP", () => {
       sentence: '"WEAVE" is no statement of TP that is executed here.',
     });
     expect(
-      faultOf(
+      fanucLs.parse(
         listing(
           "A",
           ["J P[1] 10% FINE"],
@@ -371,8 +382,9 @@ describe("executing TP", () => {
             "P[1]{\n   GP1:\n\tUF : 0, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX = ******** mm, Y = ******** mm, Z = ******** mm,\n\tW = ******** deg, P = ******** deg, R = ******** deg\n};",
           ],
         ),
+        robot,
       ),
-    ).toMatchObject({ sentence: "The position was never taught: it is ********." });
+    ).toMatchObject({ faults: [{ sentence: "The position was never taught: it is ********." }] });
   });
 });
 

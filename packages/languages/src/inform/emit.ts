@@ -1,6 +1,8 @@
 import {
   capabilitiesOf,
   everyStep,
+  lowered,
+  type Capability,
   type Dialect,
   type Emitted,
   type MoveStep,
@@ -15,23 +17,28 @@ import type { PulseData } from "./pulses.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { INFORM_LINES, WalkedPlace, inParts, outOfRange } from "../emitter/index.ts";
+import { INFORM_LINES, WalkedPlace, inParts, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
 import { configurationsOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
+
+/** What is written with other instructions, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 
 /** What INFORM has no instruction for. */
 export const CANNOT: Dialect["cannot"] = [
   { what: "duration", because: "INFORM gives a motion a speed and no duration." },
-  { what: "timeout", because: "When the time of a WAIT is over, INFORM goes on as if nothing were missing." },
   {
     what: "read-analogue",
     because: "INFORM decides by digital lines; analogue inputs need an option of the controller.",
+  },
+  {
+    what: "wait-expression",
+    because: "INFORM computes by one instruction at a time; this release writes none of them.",
   },
   { what: "payload", because: "The load belongs to the tool data of the controller, not to a job." },
 ];
 const HINTS: Readonly<Record<string, string>> = {
   duration: "Give the step a speed instead.",
-  timeout: "Take the longest time out, or let another step decide.",
   "read-analogue": "Let the controller compare the value and decide by a digital line.",
   payload: "Set the load in the tool data and take the step out.",
 };
@@ -49,12 +56,20 @@ type Refusal = Extract<Emitted, { kind: "cannot" }>;
  *
  * @param pulses  write positions in pulses, by these numbers of the controller; left out, in X, Y, Z.
  */
-export function emitInform(
+export const emitInform = (
   program: Program,
   robot: Robot,
   worldFromBase: Pose<"world", "base">,
   pulses: PulseData | undefined,
+): Emitted => writtenOr(() => jobs(program, robot, worldFromBase, pulses));
+
+function jobs(
+  taught: Program,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  pulses: PulseData | undefined,
 ): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const convention = sectionForLanguage(robot, "inform");
   if (convention === undefined) {
     return {
@@ -111,10 +126,10 @@ function written(
   const controller = new Controller(place);
   const taken = new Set<string>();
   const main = jobName(program.name, taken);
-  const jobs = new Map(Object.keys(program.routines).map(name => [name, jobName(name, taken)]));
-  const setting = { place, controller, convention, pulses, postures: configurations.of, jobs };
+  const names = new Map(Object.keys(program.routines).map(name => [name, jobName(name, taken)]));
+  const setting = { place, controller, convention, pulses, postures: configurations.of, jobs: names };
   const files = [new JobWriter(setting, true).write(main, program.name, program.steps)];
-  for (const [name, job] of jobs) files.push(new JobWriter(setting, false).write(job, name, program.routines[name]!));
+  for (const [name, job] of names) files.push(new JobWriter(setting, false).write(job, name, program.routines[name]!));
   for (const what of controller.spent)
     return {
       kind: "cannot",
@@ -230,7 +245,9 @@ function signalsOf(step: Step): string[] {
       return [step.signal];
     case "wait-for":
     case "if":
-      return [step.when.signal];
+    case "while":
+    case "assign":
+      return [...linesLookedAt(step)];
     case "move":
       return step.until === undefined ? [] : [step.until.when.signal];
     default:

@@ -1,6 +1,6 @@
 import { LIBRARY, identity, type Dialect, type EmittedFile, type Resolution, type Robot } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitInform } from "./emit.ts";
+import { CANNOT, IDIOMS, emitInform } from "./emit.ts";
 import { interpretInform } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 import { parseInform } from "./parse.ts";
@@ -67,6 +67,7 @@ export function informDialect({ examplePulses = false, positions = "rectan" }: I
           },
         ]
       : CANNOT,
+    idioms: IDIOMS,
     resolution: inPulses ? pulseResolution() : STEPS,
     runnable: asOne,
     emit(program, robot, worldFromBase = identity()) {

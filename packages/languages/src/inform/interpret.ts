@@ -1,5 +1,5 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { dryRun, textFault } from "../parser/index.ts";
+import { Notices, dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import type { PulseData } from "./pulses.ts";
 import { Arm } from "./run/arm.ts";
@@ -8,7 +8,11 @@ import { ControllerState, type Context } from "./run/state.ts";
 
 /** Jobs ready to be executed, with what only their reader wants to know. */
 export type Opened =
-  | { readonly kind: "opened"; readonly context: Context; readonly start: (signals?: Signals) => Run }
+  | {
+      readonly kind: "opened";
+      readonly context: Context;
+      readonly start: (signals?: Signals, notices?: Notices) => Run;
+    }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 export interface Run {
   readonly steps: Generator<Executed, void>;
@@ -37,9 +41,17 @@ export function openInform(
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
   const context: Context = { tools: {}, frames: {}, signals: {} };
-  const start = (signals?: Signals): Run => {
-    const state = new ControllerState(robot, arm, read.source, worldFromBase, context, pulses?.pulsesPerDegree);
-    const machine = new Machine(read.source, state, signals, context.signals);
+  const start = (signals?: Signals, notices?: Notices): Run => {
+    const state = new ControllerState(
+      robot,
+      arm,
+      read.source,
+      worldFromBase,
+      context,
+      pulses?.pulsesPerDegree,
+      notices,
+    );
+    const machine = new Machine(read.source, state, signals, context.signals, notices);
     return { steps: machine.run(), assumed: state.assumed };
   };
   return { kind: "opened", context, start };
@@ -54,7 +66,18 @@ export function interpretInform(
 ): Interpreted {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
-  const fault = dryRun(opened.start().steps);
-  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
+  const ready = executable(opened);
+  const fault = dryRun({ [Symbol.iterator]: () => ready.run() as Generator<Executed, void> });
+  return fault === undefined ? ready : { kind: "not-understood", faults: [fault] };
+}
+
+/** The jobs as they are run; what only the controller knows is left out and told. */
+export function executable(opened: Extract<Opened, { kind: "opened" }>): Extract<Interpreted, { kind: "ready" }> {
+  const notices = new Notices();
+  return {
+    kind: "ready",
+    run: signals => opened.start(signals, notices).steps,
+    context: opened.context,
+    notExecuted: notices.faults,
+  };
 }

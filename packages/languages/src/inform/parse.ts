@@ -1,8 +1,9 @@
 import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
 import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
-import { openInform, type Run } from "./interpret.ts";
+import { executable, openInform, type Run } from "./interpret.ts";
 import type { PulseData } from "./pulses.ts";
+import { keptOnController } from "./run/state.ts";
 
 /**
  * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed
@@ -28,12 +29,12 @@ export function parseInform(
   const lines = textLines(text).map(plainText);
   const { tools, frames, signals } = opened.context;
   const assumed = [...new Map(runs.flatMap(run => [...run.assumed]))].map(([name, at]) =>
-    textFault(at, "TOOL.CND or UFRAME.CND behind the job", `${name} is kept on the controller: it is taken to be 0.`),
+    textFault(at, "TOOL.CND or UFRAME.CND behind the job", keptOnController(name)),
   );
   return {
     kind: "parsed",
     waits: done.waits,
-    executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
+    executable: () => executable(opened),
     warnings: [...assumed, ...done.repeated],
     program: {
       ...emptyProgram(robot.id, nameOf(lines)),

@@ -260,7 +260,7 @@ describe("what a job means", () => {
       expected: "six numbers",
     });
     expect(faultOf(job([...RECTAN], "MOVL C00000 V=100.0"))).toMatchObject({ expected: "a position of this job" });
-    expect(faultOf(job([...RECTAN], "IMOV P000 V=100.0 BF"))).toMatchObject({
+    expect(faultOf(job([...RECTAN], "IMOVE P000 V=100.0 BF"))).toMatchObject({
       line: 15,
       column: 1,
       expected: "an instruction of INFORM",

@@ -1,12 +1,22 @@
-import type { Dialect, Emitted, Pose, Program, Robot } from "@twincell/core";
-import { everyStep, sectionForLanguage } from "@twincell/core";
+import {
+  everyStep,
+  lowered,
+  sectionForLanguage,
+  type Capability,
+  type Dialect,
+  type Emitted,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { ProgramWriter } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "AS moves on joint-interpolated, straight and circular paths only." },
   { what: "search", because: "AS stops a move on a signal by options of the controller that not every robot has." },
-  { what: "timeout", because: "SWAIT has no limit of time." },
   {
     what: "set-analogue",
     because: "Analogue lines are an option of the controller, reached by instructions of the board.",
@@ -18,7 +28,8 @@ export const CANNOT: Dialect["cannot"] = [
 ];
 
 /** One file with the program and its routines, or the step that stands in the way: never a part of a program. */
-export function emitAs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitAs(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const section = sectionForLanguage(robot, "kawasaki-as");
   if (section === undefined) {
     return {

@@ -1,6 +1,6 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitAs } from "./emit.ts";
+import { CANNOT, IDIOMS, emitAs } from "./emit.ts";
 import { interpretAs, parseAs } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -15,6 +15,7 @@ export const kawasakiAs: Dialect = skippingDialect({
   extensions: [".as", ".pg"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   emit: (program, robot, worldFromBase = identity()) => emitAs(program, robot, worldFromBase),
   parse: parseAs,
   interpret: interpretAs,

@@ -1,8 +1,11 @@
 import {
   capabilitiesOf,
   everyStep,
+  lowered,
+  type Capability,
   type Dialect,
   type Emitted,
+  type EmittedFile,
   type MoveStep,
   type Pose,
   type Program,
@@ -10,19 +13,17 @@ import {
   type Step,
   sectionForLanguage,
 } from "@twincell/core";
-import { KRL_LINES, WalkedPlace, outOfRange } from "../emitter/index.ts";
+import { KRL_LINES, WalkedPlace, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
 import { configurationsOf } from "./write/postures.ts";
 import { ModuleWriter } from "./write/program.ts";
 import { percentOf } from "./write/settings.ts";
 
 /** What KRL has no statement for. */
-export const CANNOT: Dialect["cannot"] = [
-  { what: "duration", because: "KRL gives a motion a speed and no duration." },
-  { what: "timeout", because: "WAIT FOR of KRL waits without an end." },
-];
+export const CANNOT: Dialect["cannot"] = [{ what: "duration", because: "KRL gives a motion a speed and no duration." }];
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments"];
 const HINTS: Readonly<Record<string, string>> = {
   duration: "Give the step a speed instead.",
-  timeout: "Take the longest time out, or let another step decide.",
 };
 
 /** Lines of code that every version of the controller takes. */
@@ -32,7 +33,8 @@ const FASTEST_MPS = 3;
 type Refusal = Extract<Emitted, { kind: "cannot" }>;
 
 /** The module (.src) and its data list (.dat), or the step that stands in the way: never a part of a program. */
-export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitKrl(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const convention = sectionForLanguage(robot, "krl");
   if (convention === undefined) {
     return {
@@ -49,7 +51,13 @@ export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"wor
   const configurations = configurationsOf(place, convention);
   if (configurations.kind === "cannot") return configurations;
   const gripper = gripperOutput(program);
-  const files = new ModuleWriter(place, convention, configurations.of, gripper).write();
+  return writtenOr(() => {
+    const files = new ModuleWriter(place, convention, configurations.of, gripper).write();
+    return tooLong(files) ?? { kind: "emitted", files, warnings: warnings(program, robot, steps, gripper) };
+  });
+}
+
+function tooLong(files: readonly EmittedFile[]): Refusal | undefined {
   for (const { name, text, lines } of files) {
     const long = text.split("\r\n").findIndex(line => line.length > LINE_LENGTH);
     if (long >= 0)
@@ -60,7 +68,7 @@ export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"wor
         hint: "Shorten the names in that step.",
       };
   }
-  return { kind: "emitted", files, warnings: warnings(program, robot, steps, gripper) };
+  return undefined;
 }
 
 function refused(steps: readonly Step[]): Refusal | undefined {
@@ -133,7 +141,9 @@ function signalsOf(step: Step): string[] {
       return [step.signal];
     case "wait-for":
     case "if":
-      return [step.when.signal];
+    case "while":
+    case "assign":
+      return [...linesLookedAt(step)];
     case "move":
       return step.until === undefined ? [] : [step.until.when.signal];
     default:

@@ -1,7 +1,7 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
 import { axisList } from "./axis-list.ts";
-import { CANNOT, emitKrl } from "./emit.ts";
+import { CANNOT, IDIOMS, emitKrl } from "./emit.ts";
 import { interpretKrl } from "./interpret.ts";
 import { parseKrl } from "./parse.ts";
 import { LINES } from "./lines.ts";
@@ -22,6 +22,7 @@ export const krl: Dialect = skippingDialect({
   extensions: [".src", ".dat", ".sub"],
   maturity: "proven",
   cannot: CANNOT,
+  idioms: IDIOMS,
   // $VEL_AXIS is a whole number of percent.
   resolution: { ratio: 0.005, leastRatio: 0.01 },
   runnable: files => asOne(files),

@@ -19,6 +19,8 @@ export interface Run {
   readonly steps: Generator<Executed, void>;
   readonly assumed: ReadonlyMap<string, TextPlace>;
   readonly warned: readonly { readonly at: TextPlace; readonly sentence: string }[];
+  /** What is not carried out as it stands, by what it is about. */
+  readonly notes: ReadonlyMap<string, TextFault>;
 }
 
 export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
@@ -41,7 +43,7 @@ export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world",
   const start = (signals?: Signals): Run => {
     const state = new ControllerState(robot, axes, worldFromBase, context);
     const machine = new Machine(read.source, state, signals, context.signals);
-    return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned };
+    return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned, notes: machine.notes };
   };
   return { kind: "opened", source: read.source, context, start };
 }
@@ -53,7 +55,20 @@ export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world",
 export function interpretKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const fault = dryRun(opened.start().steps);
+  const rehearsal = opened.start();
+  const fault = dryRun(rehearsal.steps);
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
+  const kept = [...rehearsal.notes.values(), ...assumedFaults(rehearsal.assumed)].toSorted((a, b) => a.line - b.line);
+  return {
+    kind: "ready",
+    run: signals => opened.start(signals).steps,
+    context: opened.context,
+    ...(kept.length === 0 ? {} : { notExecuted: kept }),
+  };
 }
+
+/** What was taken as a controller has it on delivery, where it is asked for first. */
+export const assumedFaults = (assumed: ReadonlyMap<string, TextPlace>): readonly TextFault[] =>
+  [...assumed].map(([name, at]) =>
+    textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`),
+  );

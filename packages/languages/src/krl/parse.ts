@@ -1,7 +1,7 @@
 import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
 import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
-import { openKrl, type Run } from "./interpret.ts";
+import { assumedFaults, openKrl, type Run } from "./interpret.ts";
 
 /**
  * The neutral program that a KRL text amounts to: a .src, with its .dat behind it. It is executed and its motions are
@@ -20,9 +20,8 @@ export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world"
   if (done.kind === "not-understood") return done;
   const lines = textLines(text).map(plainText);
   const { tools, frames, signals } = opened.context;
-  const assumed = [...new Map(runs.flatMap(run => [...run.assumed]))].map(([name, at]) =>
-    textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`),
-  );
+  const assumed = assumedFaults(new Map(runs.flatMap(run => [...run.assumed])));
+  const notes = [...new Map(runs.flatMap(run => [...run.notes])).values()];
   const said = new Map(
     runs.flatMap(run => run.warned.map(each => [`${each.at.line} ${each.sentence}`, each] as const)),
   );
@@ -31,7 +30,7 @@ export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world"
     kind: "parsed",
     waits: done.waits,
     executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
-    warnings: [...assumed, ...warned, ...done.repeated],
+    warnings: [...assumed, ...notes, ...warned, ...done.repeated],
     program: {
       ...emptyProgram(robot.id, nameOf(lines)),
       ...withComments(lines, done, comment),

@@ -396,8 +396,8 @@ describe("what the text means", () => {
       expected: "a position with X, Y, Z, A, B, C",
       sentence: "LIN does not take axis values.",
     });
-    expect(faultOf("PTP XP1")).toMatchObject({ line: 2, column: 5, expected: "a variable that has a value" });
-    expect(faultOf("TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE")).toMatchObject({ line: 2, column: 1 });
+    expect(faultOf("n=m+1")).toMatchObject({ line: 2, column: 3, expected: "a variable that has a value" });
+    expect(faultOf("TRIGGER WHEN SPEED=0 DO $OUT[1]=TRUE")).toMatchObject({ line: 2 });
     expect(faultOf("a_name_that_is_far_too_long=1")).toMatchObject({ expected: "a name of at most 24 characters" });
     expect(faultOf("LOOP", "ENDLOOP")).toMatchObject({ sentence: expect.stringMatching(/without a motion/) });
   });

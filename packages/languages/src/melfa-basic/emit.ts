@@ -1,7 +1,9 @@
-import { everyStep, type Dialect, type Program } from "@twincell/core";
+import { everyStep, type Capability, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
 import { MelfaProgram } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 export const CANNOT: Dialect["cannot"] = [
   {
     what: "spline",
@@ -9,7 +11,6 @@ export const CANNOT: Dialect["cannot"] = [
   },
   { what: "duration", because: "MELFA-BASIC gives motions a speed, not a time." },
   { what: "search", because: "A motion that is skipped by WthIf goes on without a fault when its line never comes." },
-  { what: "timeout", because: "Wait has no limit of time." },
   { what: "payload", because: "LoadSet chooses a load by the number of a parameter of the controller." },
   { what: "message", because: "Print writes to a line that is opened, not to the pendant." },
   { what: "set-analogue", because: "Analogue lines are an option of the controller." },
@@ -24,6 +25,7 @@ export const emitMelfa = emitterOf({
   language: "MELFA-BASIC",
   id: "melfa-basic",
   cannot: CANNOT,
+  idioms: IDIOMS,
   write: (place, section) => new MelfaProgram(place, section).write(),
   warnings,
 });

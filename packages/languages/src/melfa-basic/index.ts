@@ -1,6 +1,6 @@
 import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitMelfa } from "./emit.ts";
+import { CANNOT, IDIOMS, emitMelfa } from "./emit.ts";
 import { interpretMelfa, parseMelfa } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -15,6 +15,7 @@ export const melfaBasic: Dialect = skippingDialect({
   extensions: [".prg"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   resolution: { stopsAtNewTool: true },
   emit: emitMelfa,
   parse: parseMelfa,

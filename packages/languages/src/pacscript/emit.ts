@@ -1,13 +1,14 @@
-import { everyStep, type Dialect, type Program } from "@twincell/core";
+import { everyStep, type Capability, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
 import { GRIPPER } from "./robots.ts";
 import { PacProgram } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "PacScript registers the points of a free curve apart from the motion." },
   { what: "duration", because: "PacScript gives motions a speed, not a time." },
   { what: "search", because: "MotionSkip ends a motion by a task that runs beside it." },
-  { what: "timeout", because: "Wait with a limit of time goes on as if nothing had been waited for." },
   { what: "set-analogue", because: "Analogue lines are an option of the controller." },
   { what: "read-analogue", because: "Analogue lines are an option of the controller." },
 ];
@@ -17,6 +18,7 @@ export const emitPac = emitterOf({
   language: "PacScript",
   id: "pacscript",
   cannot: CANNOT,
+  idioms: IDIOMS,
   write: (place, section) => new PacProgram(place, section).write(),
   warnings,
 });

@@ -1,6 +1,6 @@
 import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitPac } from "./emit.ts";
+import { CANNOT, IDIOMS, emitPac } from "./emit.ts";
 import { interpretPac, parsePac } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -12,6 +12,7 @@ export const pacScript: Dialect = skippingDialect({
   extensions: [".pcs", ".pac"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   resolution: { wait_s: 0.000501 },
   emit: emitPac,
   parse: parsePac,

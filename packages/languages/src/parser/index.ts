@@ -1,4 +1,5 @@
 export * from "./faults.ts";
+export * from "./notices.ts";
 export * from "./lines.ts";
 export * from "./numbers.ts";
 export * from "./tokens.ts";

@@ -32,9 +32,10 @@ export class ShownAxes {
 
   /** What the other axes add to what one shows, by what those show. */
   private added(axis: number, shown_deg: ArrayLike<number>): number {
+    const { couplings } = this.section;
+    if (couplings === undefined) return 0;
     let sum = 0;
-    for (const each of this.section.couplings ?? [])
-      if (each.axis === axis + 1) sum += each.factor * shown_deg[each.with - 1]!;
+    for (const each of couplings) if (each.axis === axis + 1) sum += each.factor * shown_deg[each.with - 1]!;
     return sum;
   }
 

@@ -7,8 +7,13 @@ import { Fault, type TextPlace } from "@twincell/core";
 export class WaitsOutside extends Fault {
   readonly code = "language.waits-outside";
   readonly hint: string;
-  constructor({ line, column }: TextPlace, called = "program") {
-    super(`The ${called} turns in a circle until a line from outside changes.`);
-    this.hint = `Line ${line}, column ${column}: set the line that it looks at.`;
+  /** @param asks  what a person or another machine is asked for, where it is no line. */
+  constructor({ line, column }: TextPlace, called = "program", asks?: string) {
+    super(
+      asks === undefined
+        ? `The ${called} turns in a circle until a line from outside changes.`
+        : `The ${called} waits until somebody answers "${asks}".`,
+    );
+    this.hint = `Line ${line}, column ${column}: ${asks === undefined ? "set the line that it looks at" : `give "${asks}" as an input`}.`;
   }
 }

@@ -12,6 +12,7 @@ import {
   type Step,
   type TextFault,
 } from "@twincell/core";
+import { WaitsOutside } from "../parser/index.ts";
 
 export interface ExecuteOptions {
   /** What inputs say from the start; others are off. */
@@ -84,6 +85,8 @@ export function executeText(
     }
   } catch (cause) {
     if (!(cause instanceof Fault)) throw cause;
+    // It goes on when an input changes: what was done up to there is what it does until then.
+    if (cause instanceof WaitsOutside) return executed(`${cause.message} ${cause.hint}`.trim());
     return {
       kind: "not-understood",
       faults: [
@@ -96,18 +99,22 @@ export function executeText(
       ],
     };
   }
-  return {
-    kind: "executed",
-    program: {
-      ...emptyProgram(robot.id, name),
-      tools: { ...context.tools },
-      frames: { ...context.frames },
-      signals: { ...context.signals },
-      steps,
-    },
-    lines,
-    ...(cut === undefined ? {} : { cut }),
-    skipped,
-    notExecuted,
-  };
+  return executed(cut);
+
+  function executed(why: string | undefined): ExecutedText {
+    return {
+      kind: "executed",
+      program: {
+        ...emptyProgram(robot.id, name),
+        tools: { ...context.tools },
+        frames: { ...context.frames },
+        signals: { ...context.signals },
+        steps,
+      },
+      lines,
+      ...(why === undefined ? {} : { cut: why }),
+      skipped,
+      notExecuted,
+    };
+  }
 }

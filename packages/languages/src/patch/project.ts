@@ -1,4 +1,5 @@
 import type { Dialect } from "@twincell/core";
+import { neededFiles } from "./needed.ts";
 import type { PatchFile } from "./points.ts";
 
 /** What a controller executes of a project, as one text, and where each of its lines stands. */
@@ -24,8 +25,13 @@ const speaks = (dialect: Pick<Dialect, "extensions">, name: string): boolean =>
   !LISTS.has(endingOf(name)) &&
   dialect.extensions.some(each => endingOf(name) === (each.startsWith(".") ? each : `.${each}`).toLowerCase());
 
+const folderOf = (name: string): string => /^(.*[/\\])?/.exec(name)![0];
+/** Data that are read right behind their program. */
+const isOwnData = (name: string, main: string): boolean =>
+  baseOf(name) === baseOf(main) && folderOf(name) === folderOf(main);
+
 /** Files that only hold data: never the one that is run. */
-const DATA = new Set([".dat", ".sys", ".dtx", ".pts", ".va"]);
+const DATA = new Set([".dat", ".sys", ".sysx", ".dtx", ".pts", ".va"]);
 
 /**
  * The file that is run: of those with statements the one whose name no other mentions, the first of several. Undefined
@@ -41,15 +47,20 @@ export function mainOf(dialect: Pick<Dialect, "extensions">, files: readonly Pat
 }
 
 /**
- * The main file, its own data list behind it, then the other files of the language in their order: what is loaded
- * together.
+ * The main file, its own data list behind it, then the other files of the language that it needs, in their order: what
+ * is loaded together.
  */
-export function joinFiles(dialect: Pick<Dialect, "extensions">, files: readonly PatchFile[], main: string): JoinedText {
+export function joinFiles(
+  dialect: Pick<Dialect, "extensions"> & Partial<Pick<Dialect, "id">>,
+  files: readonly PatchFile[],
+  main: string,
+): JoinedText {
+  const needed = new Set(neededFiles(dialect.id, files, main));
   const rank = (file: PatchFile): number =>
-    file.name === main ? 0 : baseOf(file.name) === baseOf(main) ? 1 : DATA.has(endingOf(file.name)) ? 3 : 2;
+    file.name === main ? 0 : isOwnData(file.name, main) ? 1 : DATA.has(endingOf(file.name)) ? 3 : 2;
   const order = files
     .map((file, index) => ({ file, index }))
-    .filter(({ file }) => file.name === main || speaks(dialect, file.name))
+    .filter(({ file }) => file.name === main || (speaks(dialect, file.name) && needed.has(file)))
     .sort((a, b) => rank(a.file) - rank(b.file) || a.index - b.index);
   let text = "";
   let line = 1;

@@ -1,5 +1,7 @@
 import {
   everyStep,
+  lowered,
+  type Capability,
   sectionForLanguage,
   type Dialect,
   type Emitted,
@@ -11,6 +13,8 @@ import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { GRIPPER_SIGNAL } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["late", "wait-expression", "arguments"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "RAPID has no spline: zones pass beside the points." },
 ];
@@ -18,7 +22,8 @@ export const CANNOT: Dialect["cannot"] = [
 const MANY_MOVES = 5_000;
 
 /** The module and the list that loads it, or the step that stands in the way: never a part of a program. */
-export function emitRapid(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitRapid(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const section = sectionForLanguage(robot, "rapid");
   if (section === undefined) {
     return {

@@ -1,6 +1,6 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitRapid } from "./emit.ts";
+import { CANNOT, IDIOMS, emitRapid } from "./emit.ts";
 import { interpretRapid, parseRapid } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -9,9 +9,10 @@ export const rapid: Dialect = skippingDialect({
   id: "rapid",
   brand: "ABB",
   name: "RAPID",
-  extensions: [".mod", ".pgf", ".prg", ".sys"],
+  extensions: [".mod", ".modx", ".pgf", ".prg", ".sys", ".sysx"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   emit: (program, robot, worldFromBase = identity()) => emitRapid(program, robot, worldFromBase),
   parse: parseRapid,
   interpret: interpretRapid,

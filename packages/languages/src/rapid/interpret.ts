@@ -9,7 +9,10 @@ export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blo
   speaks: robot => sectionForLanguage(robot, "rapid") !== undefined,
   read: readSource,
   script(source, robot, worldFromBase) {
-    const changing = changedNames([...source.routines.values()].map(({ body }) => body));
+    const changing = changedNames(
+      [...source.routines.values()].map(({ body }) => body),
+      source.routines,
+    );
     return routineScript(
       source.title,
       (declared, signals) => new Machine(source, changing, robot, worldFromBase, declared, signals),

@@ -440,7 +440,7 @@ describe("L-57 what is written", () => {
 
 describe("faults have a place and say what is expected", () => {
   test.each<[line: string, atLine: number, column: number]>([
-    ["MoveL p1,v100,fine,tool0;", 4, 7],
+    ["MoveL 12,v100,fine,tool0;", 4, 7],
     ["MoveL [[1,2,3]],v100,fine,tool0;", 4, 7],
     ["MoveL;", 4, 1],
     ["  Frob 12;", 4, 3],

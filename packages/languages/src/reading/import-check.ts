@@ -5,7 +5,10 @@ import {
   flow,
   holds,
   millimetres,
+  isCondition,
   type Condition,
+  type ExpressionValues,
+  type Predicate,
   type Executed,
   type Interpreted,
   type PrimitiveStep,
@@ -272,10 +275,11 @@ function* importedSteps(
   isEndless: boolean,
   waits: ReadonlySet<string>,
 ): Generator<readonly [PrimitiveStep, PrimitiveStep | undefined], "ended" | "left"> {
-  const decide = (when: Condition): boolean => holds(when, inputs);
+  const decide = (when: Predicate, variable: ExpressionValues["variable"]): boolean => holds(when, inputs, variable);
+  const read = (signal: string): boolean | number => inputs.read(signal);
   let before: PrimitiveStep | undefined;
   let hasStopped = false;
-  for (const happening of flow(program, { decide, ...(isEndless ? { rounds: ROUNDS } : {}) })) {
+  for (const happening of flow(program, { decide, read, ...(isEndless ? { rounds: ROUNDS } : {}) })) {
     if (happening.kind === "end") break;
     if (happening.kind === "passed" && happening.step.type !== "comment" && before !== undefined) {
       yield [before, undefined];
@@ -307,7 +311,8 @@ function* importedSteps(
 function conditionsOf(program: Program): Condition[] {
   const conditions: Condition[] = [];
   for (const step of everyStep(program)) {
-    if (step.type === "if" || step.type === "wait-for") conditions.push(step.when);
+    if ((step.type === "if" || step.type === "while" || step.type === "wait-for") && isCondition(step.when))
+      conditions.push(step.when);
     if (step.type === "move" && step.until !== undefined) conditions.push(step.until.when);
   }
   return conditions;

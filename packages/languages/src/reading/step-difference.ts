@@ -9,7 +9,9 @@ import {
   sameBranch,
   wrapAngle,
   type Branch,
-  type Condition,
+  isCondition,
+  withPredicateLines,
+  type Predicate,
   type MoveStep,
   type PayloadStep,
   type Pose,
@@ -147,10 +149,18 @@ function sameLine(wanted: string, done: string, mine: Program["signals"], theirs
 const sameLevel = (a: boolean | number, b: boolean | number): boolean =>
   typeof a === "number" && typeof b === "number" ? near(a, b) : a === b;
 
-function sameCondition(a: Condition, b: Condition, mine: Program["signals"], theirs: Program["signals"]): boolean {
+function sameCondition(a: Predicate, b: Predicate, mine: Program["signals"], theirs: Program["signals"]): boolean {
+  if (!isCondition(a) || !isCondition(b)) return !isCondition(a) && !isCondition(b) && samePart(a, b, mine, theirs);
   if (!sameLine(a.signal, b.signal, mine, theirs)) return false;
   if ("is" in a) return "is" in b && a.is === b.is;
   return "above" in a ? "above" in b && near(a.above, b.above) : "below" in b && near(a.below, b.below);
+}
+
+/** Two expressions that are the same but for what lines are called. */
+function samePart(a: Predicate, b: Predicate, mine: Program["signals"], theirs: Program["signals"]): boolean {
+  const told = (when: Predicate, lines: Program["signals"]): string =>
+    JSON.stringify(withPredicateLines(when, name => String(Object.hasOwn(lines, name) ? lines[name]!.address : name)));
+  return told(a, mine) === told(b, theirs);
 }
 
 function samePayload(a: PayloadStep, b: PayloadStep): boolean {

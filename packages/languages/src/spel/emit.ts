@@ -1,14 +1,15 @@
-import { everyStep, type Dialect, type Program } from "@twincell/core";
+import { everyStep, type Capability, type Dialect, type Program } from "@twincell/core";
 import { emitterOf } from "../emitter/index.ts";
 import { GRIPPER } from "./robots.ts";
 import { SpelProgram } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "SPEL+ keeps a curve in a file of its own, of which the text says only the name." },
   { what: "duration", because: "SPEL+ gives motions a speed, not a time." },
   { what: "acceleration", because: "SPEL+ gives paths an acceleration in mm/s², not a share of the fastest." },
   { what: "search", because: "A motion with Till goes on without a fault when its line never comes." },
-  { what: "timeout", because: "Wait with a limit of time goes on as if nothing had been waited for." },
   {
     what: "payload",
     because:
@@ -25,6 +26,7 @@ export const emitSpel = emitterOf({
   language: "SPEL+",
   id: "spel",
   cannot: CANNOT,
+  idioms: IDIOMS,
   write: (place, section) => new SpelProgram(place, section).write(),
   warnings,
 });

@@ -1,6 +1,6 @@
 import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitSpel } from "./emit.ts";
+import { CANNOT, IDIOMS, emitSpel } from "./emit.ts";
 import { interpretSpel, parseSpel } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -12,9 +12,10 @@ export const spel: Dialect = skippingDialect({
   id: "spel",
   brand: "Epson",
   name: "SPEL+",
-  extensions: [".prg"],
+  extensions: [".prg", ".pts"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   resolution: { ratio: 0.00501, leastRatio: 0.01, mostMps: 2 },
   emit: emitSpel,
   parse: parseSpel,

@@ -9,6 +9,7 @@ import {
   type Step,
 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
+import { executeText } from "../patch/index.ts";
 import { runnableFile } from "../prove.ts";
 import type { DialectBench } from "./describe-dialect.ts";
 
@@ -51,12 +52,33 @@ export function describeSkipping(dialect: Dialect, { robot, worldFromBase }: Dia
   const put = (at: number, ...statements: string[]): string =>
     lines.toSpliced(at, 0, ...statements.map(asLine)).join("\n");
 
-  const read = (text: string): { readonly steps: readonly Step[]; readonly skipped: readonly Skipped[] } => {
+  /** What a text that is executed as it is leaves out, which is named at the lines from `first` to `last`. */
+  const named = (text: string, first: number, last: number): readonly string[] | undefined => {
+    const executed = executeText(dialect, text, "left out", robot, worldFromBase);
+    if (executed.kind === "not-understood") return undefined;
+    expect(executed.notExecuted.some(({ line }) => line >= first && line <= last)).toBe(true);
+    return executed.program.steps.map(({ type }) => type);
+  };
+
+  const read = (
+    text: string,
+    first: number,
+    last = first,
+  ): { readonly steps: readonly Step[]; readonly skipped: readonly Skipped[] | undefined } => {
     const plain = dialect.parse(text, robot, worldFromBase);
     const parsed = dialect.parse(text, robot, worldFromBase, { skipUnknown: true });
     const interpreted = dialect.interpret(text, robot, worldFromBase, { skipUnknown: true });
-    expect(plain.kind).toBe("not-understood");
-    expect(dialect.interpret(text, robot, worldFromBase).kind).toBe("not-understood");
+    const asText = named(text, first, last);
+    // Kept as steps without being asked to leave anything out: then the place is among the warnings.
+    if (plain.kind === "parsed") {
+      expect(plain.warnings.some(({ line }) => line >= first && line <= last)).toBe(true);
+      return { steps: plain.program.steps, skipped: undefined };
+    }
+    if (asText !== undefined) {
+      if (parsed.kind !== "parsed") throw new Error(JSON.stringify(parsed.faults));
+      expect(asText).toEqual(parsed.program.steps.flatMap(({ type }) => (type === "comment" ? [] : [type])));
+      return { steps: parsed.program.steps, skipped: parsed.skipped };
+    }
     if (parsed.kind !== "parsed") throw new Error(JSON.stringify(parsed.faults));
     if (interpreted.kind !== "ready") throw new Error(JSON.stringify(interpreted.faults));
     const run = interpreted.run();
@@ -71,10 +93,11 @@ export function describeSkipping(dialect: Dialect, { robot, worldFromBase }: Dia
   const types = (steps: readonly Step[]): string[] => steps.flatMap(({ type }) => (type === "comment" ? [] : [type]));
 
   describe(`what is not understood of ${dialect.name}`, () => {
-    test("a statement is reported with its line and column, and left out only when the user says so", () => {
+    test("a statement is reported with its line and column, and left out only when it is named or the user says so", () => {
       const at = lineOf("w");
-      const { steps, skipped } = read(put(at, unknown.statement));
+      const { steps, skipped } = read(put(at, unknown.statement), at + 1);
       expect(types(steps)).toEqual(["move", "wait", "move", "move"]);
+      if (skipped === undefined) return;
       expect(skipped).toMatchObject([
         { what: "statement", line: at + 1, lastLine: at + 1, text: asLine(unknown.statement) },
       ]);
@@ -84,8 +107,9 @@ export function describeSkipping(dialect: Dialect, { robot, worldFromBase }: Dia
 
     test("a motion that is left out is called one", () => {
       const at = lineOf("b");
-      const { steps, skipped } = read(put(at, unknown.motion));
+      const { steps, skipped } = read(put(at, unknown.motion), at + 1);
       expect(types(steps)).toEqual(["move", "wait", "move", "move"]);
+      if (skipped === undefined) return;
       expect(skipped).toMatchObject([{ what: "motion", line: at + 1 }]);
       expect(skipped[0]!.sentence).toMatch(/^The motion in line [0-9]+ is left out: the robot goes on/);
     });
@@ -98,8 +122,9 @@ export function describeSkipping(dialect: Dialect, { robot, worldFromBase }: Dia
           .toSpliced(at + 1, 0, asLine(unknown.closes!))
           .toSpliced(at, 0, asLine(unknown.opens!))
           .join("\n");
-        const { steps, skipped } = read(text);
+        const { steps, skipped } = read(text, at + 1, at + 3);
         expect(types(steps)).toEqual(["move", "wait", "move"]);
+        if (skipped === undefined) return;
         expect(skipped).toMatchObject([{ what: "branch", line: at + 1, lastLine: at + 3 }]);
         expect(skipped[0]!.sentence).toContain(
           `Lines ${at + 1} to ${at + 3} are left out with all that they do, a motion among it.`,

@@ -23,7 +23,7 @@ const shape = (steps: readonly Step[]): unknown[] =>
 /** What a language keeps of loops, decisions, calls and patterns, and what of lines and loads. */
 export function describeStructure(dialect: Dialect, bench: DialectBench): void {
   const { robot, worldFromBase } = bench;
-  const cannot = new Set(dialect.cannot.map(({ what }) => what));
+  const cannot = new Set([...dialect.cannot.map(({ what }) => what), ...(dialect.idioms ?? [])]);
   const emit = (program: Program): EmittedFile => {
     const emitted = dialect.emit(program, robot, worldFromBase);
     if (emitted.kind === "cannot") throw new Error(`${emitted.step}: ${emitted.sentence}`);

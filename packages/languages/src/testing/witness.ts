@@ -7,7 +7,7 @@ import { randomProgram } from "./programs.ts";
 export interface Witness {
   /** What a text does, step by step. */
   readonly run: (text: string, signals?: Signals) => Executed[];
-  /** What is wrong with a text; "ready" when nothing is. */
+  /** What keeps a text from being steps, or from being executed; "ready" when nothing does. */
   readonly faults: (text: string) => readonly TextFault[] | "ready";
 }
 
@@ -22,7 +22,8 @@ export function witnessOf(dialect: Dialect, robot: Robot): Witness {
       return done;
     },
     faults: text => {
-      const answer = dialect.interpret(text, robot);
+      const kept = dialect.parse(text, robot);
+      const answer = kept.kind === "not-understood" ? kept : dialect.interpret(text, robot);
       return answer.kind === "not-understood" ? answer.faults : "ready";
     },
   };

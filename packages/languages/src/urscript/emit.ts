@@ -1,8 +1,18 @@
-import type { Dialect, Emitted, Pose, Program, Robot } from "@twincell/core";
+import {
+  lowered,
+  type Capability,
+  type Dialect,
+  type Emitted,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { fullJointSpeed } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "URScript has no spline: movep cuts corners, and servoj needs a new point every 2 ms." },
   { what: "search", because: "URScript stops a move on a signal only from a second thread." },
@@ -11,11 +21,11 @@ export const CANNOT: Dialect["cannot"] = [
     because: "The greatest accelerations of these robots are not published, so a share of them cannot be written.",
   },
   { what: "pulse", because: "An output that falls back by itself needs a second thread." },
-  { what: "timeout", because: "A wait is a loop without a clock." },
 ];
 
 /** One script, or the step that stands in the way: never a part of a program. */
-export function emitUrScript(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitUrScript(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   if (fullJointSpeed(robot) === undefined) {
     return {
       kind: "cannot",

@@ -1,6 +1,6 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitUrScript } from "./emit.ts";
+import { CANNOT, IDIOMS, emitUrScript } from "./emit.ts";
 import { interpretUrScript, parseUrScript } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -9,9 +9,10 @@ export const urScript: Dialect = skippingDialect({
   id: "urscript",
   brand: "Universal Robots",
   name: "URScript",
-  extensions: [".script"],
+  extensions: [".script", ".urscript"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   emit: (program, robot, worldFromBase = identity()) => emitUrScript(program, robot, worldFromBase),
   parse: parseUrScript,
   interpret: interpretUrScript,

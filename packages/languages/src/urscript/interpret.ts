@@ -1,4 +1,10 @@
-import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../parser/structured/index.ts";
+import {
+  blockEntryPoints,
+  constantsOf,
+  mainScript,
+  type BlockReader,
+  type Script,
+} from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { keptThreads } from "./read/threads.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
@@ -13,9 +19,10 @@ export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader
   notExecuted: keptThreads,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
-    return mainScript(
+    const script: Script<Machine> = mainScript(
       source,
       (declared, signals) => new Machine(source, constants, robot, worldFromBase, declared, signals),
     );
+    return { ...script, run: (machine: Machine) => machine.start(source.main) };
   },
 });

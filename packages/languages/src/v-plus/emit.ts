@@ -1,6 +1,7 @@
 import {
   capabilitiesUsed,
   everyStep,
+  lowered,
   type Capability,
   type Emitted,
   type MoveStep,
@@ -10,10 +11,13 @@ import {
   type Step,
   sectionForLanguage,
 } from "@twincell/core";
-import { VPLUS_LINES, outOfRange } from "../emitter/index.ts";
+import { VPLUS_LINES, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
 import { MAX_POINTS, pointList } from "./write/point-list.ts";
 import { configurationsOf, type Place } from "./write/postures.ts";
 import { ProgramWriter } from "./write/program.ts";
+
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["timeout", "late", "wait-expression", "arguments", "truth-values"];
 
 /** What V+ has no standard instruction for. */
 export const CANNOT: readonly { readonly what: Capability; readonly because: string }[] = [
@@ -21,7 +25,6 @@ export const CANNOT: readonly { readonly what: Capability; readonly because: str
   { what: "spline", because: "V+ moves on joint-interpolated and straight paths only." },
   { what: "search", because: "V+ searches by a reaction program (REACTI) that runs beside the motion." },
   { what: "payload", because: "V+ learns the load from the controller's configuration, not from a program." },
-  { what: "timeout", because: "WAIT has no limit of time in V+." },
   { what: "pulse", because: "V+ sets a signal and leaves it." },
   { what: "set-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
   { what: "read-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
@@ -32,7 +35,8 @@ const MAX_TIMES = 2 ** 24;
 /**
  * The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program.
  */
-export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitVPlus(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const convention = sectionForLanguage(robot, "v-plus");
   if (convention === undefined) {
     return {
@@ -57,14 +61,14 @@ export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"w
   const place: Place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
   const configurations = configurationsOf(program, place);
   if (configurations.kind === "cannot") return configurations;
-  return {
+  return writtenOr(() => ({
     kind: "emitted",
     files: [
       new ProgramWriter(program, place, convention, configurations.q_rad).write(),
       pointList(moves, configurations.q_rad, convention),
     ],
     warnings: warnings(program, robot, moves),
-  };
+  }));
 }
 
 /** The first step that V+ has no words for. */
@@ -84,19 +88,13 @@ function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted,
     return refuse(step, `asks for: ${what}. ${because}`, "Say it in another way, or export in another language.");
   }
   for (const step of steps) {
-    const signal =
-      step.type === "set" ? step.signal : step.type === "wait-for" || step.type === "if" ? step.when.signal : undefined;
-    if (
-      signal !== undefined &&
-      (Object.hasOwn(program.signals, signal) ? program.signals[signal]!.address : undefined) === undefined
-    ) {
-      return refuse(
-        step,
-        `names the signal “${signal}”, whose number is not known. V+ counts its lines.`,
-        "Give the signal its address: outputs count from 1, inputs from 1001.",
-      );
-    }
-    if (signal !== undefined) {
+    for (const signal of step.type === "set" ? [step.signal] : linesLookedAt(step)) {
+      if ((Object.hasOwn(program.signals, signal) ? program.signals[signal]!.address : undefined) === undefined)
+        return refuse(
+          step,
+          `names the signal “${signal}”, whose number is not known. V+ counts its lines.`,
+          "Give the signal its address: outputs count from 1, inputs from 1001.",
+        );
       const wrong = outOfRange("V+", VPLUS_LINES, step, signal, program.signals[signal]!);
       if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
     }

@@ -1,6 +1,6 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitVPlus } from "./emit.ts";
+import { CANNOT, IDIOMS, emitVPlus } from "./emit.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { isPointList, parseVPlus } from "./parse.ts";
 import { LINES } from "./lines.ts";
@@ -14,6 +14,7 @@ export const vPlus: Dialect = skippingDialect(
     extensions: [".v2", ".pg", ".vp", ".txt"],
     maturity: "proven",
     cannot: CANNOT,
+    idioms: IDIOMS,
     // TOOL is carried out when the motion before it has ended.
     resolution: { stopsAtNewTool: true },
     emit: (program, robot, worldFromBase = identity()) => emitVPlus(program, robot, worldFromBase),

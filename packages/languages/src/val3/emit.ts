@@ -1,5 +1,7 @@
 import {
   everyStep,
+  lowered,
+  type Capability,
   sectionForLanguage,
   type Dialect,
   type Emitted,
@@ -7,10 +9,12 @@ import {
   type Program,
   type Robot,
 } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
+import { Place, linesLookedAt, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { VALVE } from "./robots.ts";
 import { ApplicationWriter } from "./write/program.ts";
 
+/** What is written with other statements, as its programmers do. */
+export const IDIOMS: readonly Capability[] = ["late", "wait-expression", "arguments"];
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "VAL 3 blends between points and has no spline." },
   { what: "duration", because: "VAL 3 gives a motion limits of speed and no duration." },
@@ -20,7 +24,8 @@ export const CANNOT: Dialect["cannot"] = [
 ];
 
 /** The files of an application, or the step that stands in the way: never a part of a program. */
-export function emitVal3(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+export function emitVal3(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
+  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
   const section = sectionForLanguage(robot, "val3");
   if (section === undefined)
     return {
@@ -35,7 +40,7 @@ export function emitVal3(program: Program, robot: Robot, worldFromBase: Pose<"wo
     const files = new ApplicationWriter(new Place(program, robot, worldFromBase), section).write();
     const steps = [...everyStep(program)];
     const title = files.at(-1)!.name.replace(/\.pjx$/, "");
-    const usesLines = steps.some(({ type }) => type === "set" || type === "wait-for" || type === "if");
+    const usesLines = steps.some(step => step.type === "set" || [...linesLookedAt(step)].length > 0);
     return {
       kind: "emitted",
       files,

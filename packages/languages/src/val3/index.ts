@@ -1,6 +1,6 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../parser/index.ts";
-import { CANNOT, emitVal3 } from "./emit.ts";
+import { CANNOT, IDIOMS, emitVal3 } from "./emit.ts";
 import { interpretVal3, parseVal3 } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
@@ -22,6 +22,7 @@ export const val3: Dialect = skippingDialect({
   extensions: [".pgx", ".dtx", ".pjx"],
   maturity: "experimental",
   cannot: CANNOT,
+  idioms: IDIOMS,
   runnable: asOne,
   emit: (program, robot, worldFromBase = identity()) => emitVal3(program, robot, worldFromBase),
   parse: parseVal3,

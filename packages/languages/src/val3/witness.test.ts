@@ -268,18 +268,18 @@ describe("executing VAL 3", () => {
       datum("doLamp", "dio", 'link=""'),
       point("p", [700, 0, 300, 180, 0, 0], "ssame esame wsame", "nowhere"),
     );
-    expect(faultOf(program("start", ["movej(jReady,flange,m)", "doLamp=true"]) + base)).toMatchObject({
-      line: 6,
-      expected: "waitEndMove()",
-    });
+    const overtaking = val3.interpret(program("start", ["movej(jReady,flange,m)", "doLamp=true"]) + base, robot);
+    expect(overtaking.kind === "ready" && overtaking.notExecuted).toMatchObject([
+      { line: 6, expected: "waitEndMove()" },
+    ]);
     expect(faultOf(program("start", ["movel(p,flange,m)"]) + base)).toMatchObject({
       line: 5,
       sentence: "The frame nowhere that a point counts from is not among the data.",
     });
-    expect(faultOf(program("start", ["  movej(jHome,flange,m)"]) + base)).toMatchObject({
+    expect(faultOf(program("start", ["  delay(nPause)"]) + base)).toMatchObject({
       line: 5,
       column: 9,
-      sentence: '"jHome" has no value here.',
+      sentence: '"nPause" has no value here.',
     });
     expect(faultOf(program("start", ["movej(jReady,flange,m);"]) + base)).toMatchObject({ line: 5, column: 23 });
     expect(faultOf(program("start", ["if true"]) + base)).toMatchObject({ expected: "endif" });

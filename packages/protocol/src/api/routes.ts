@@ -12,12 +12,12 @@ export interface ApiRoute {
   /** With `{name}` for what varies. */
   readonly path: string;
   readonly summary: string;
-  readonly tag: "server" | "robots" | "commands" | "programs" | "documents" | "recordings";
+  readonly tag: "server" | "people" | "robots" | "commands" | "programs" | "documents" | "recordings";
   /**
    * "open": no account or code is asked for; "look": whoever may look; "write": whoever may change programs and cells;
-   * "command": whoever may move robots; "stop": anyone, always.
+   * "command": whoever may move robots; "stop": anyone, always; "people": whoever may say who may do what.
    */
-  readonly access: "open" | "look" | "write" | "command" | "stop";
+  readonly access: "open" | "look" | "write" | "command" | "stop" | "people";
   /** Whether the header Twincell-Lease must name the lease of that robot. */
   readonly lease?: "needed" | "when-taken";
   readonly body?: z.ZodType;
@@ -90,6 +90,100 @@ export const API_ROUTES = {
     access: "look",
     answer: s.aboutSchema,
   },
+  session: {
+    method: "get",
+    path: "/api/v1/session",
+    summary: "Who is signed in, and whether people sign in here",
+    tag: "people",
+    access: "open",
+    answer: s.sessionSchema,
+  },
+  signIn: {
+    method: "post",
+    path: "/api/v1/session",
+    summary: "Signs in by name and password; the session is a cookie",
+    tag: "people",
+    access: "open",
+    body: s.signInBody,
+    answer: s.sessionSchema,
+  },
+  signOut: {
+    method: "delete",
+    path: "/api/v1/session",
+    summary: "Signs out",
+    tag: "people",
+    access: "open",
+    answer: outcomeSchema,
+  },
+  acceptInvitation: {
+    method: "post",
+    path: "/api/v1/invitation",
+    summary: "Chooses name and password with a link that works once, and signs in",
+    tag: "people",
+    access: "open",
+    body: s.invitationBody,
+    answer: s.sessionSchema,
+  },
+  beginPasskeySignIn: {
+    method: "post",
+    path: "/api/v1/session/passkey/begin",
+    summary: "What a browser needs to sign in by passkey (WebAuthn)",
+    tag: "people",
+    access: "open",
+    answer: s.webAuthnSchema,
+  },
+  passkeySignIn: {
+    method: "post",
+    path: "/api/v1/session/passkey",
+    summary: "Signs in by passkey",
+    tag: "people",
+    access: "open",
+    body: s.webAuthnBody,
+    answer: s.sessionSchema,
+  },
+  beginPasskey: {
+    method: "post",
+    path: "/api/v1/passkeys/begin",
+    summary: "What a browser needs to make a passkey for whoever is signed in",
+    tag: "people",
+    access: "look",
+    answer: s.webAuthnSchema,
+  },
+  addPasskey: {
+    method: "post",
+    path: "/api/v1/passkeys",
+    summary: "Adds a passkey to whoever is signed in",
+    tag: "people",
+    access: "look",
+    body: s.webAuthnBody,
+    answer: outcomeSchema,
+  },
+  listPeople: {
+    method: "get",
+    path: "/api/v1/people",
+    summary: "People with their roles",
+    tag: "people",
+    access: "people",
+    answer: s.peopleSchema,
+  },
+  putPerson: {
+    method: "put",
+    path: "/api/v1/people/{name}",
+    summary:
+      "Gives somebody a role, and roles for single robots and cells; a new one or `renew` gives a link to choose a password",
+    tag: "people",
+    access: "people",
+    body: s.personBody,
+    answer: s.invitedSchema,
+  },
+  deletePerson: {
+    method: "delete",
+    path: "/api/v1/people/{name}",
+    summary: "Takes somebody's account away; their sessions and sockets end",
+    tag: "people",
+    access: "people",
+    answer: outcomeSchema,
+  },
   models: {
     method: "get",
     path: "/api/v1/models",
@@ -145,6 +239,22 @@ export const API_ROUTES = {
     tag: "robots",
     access: "look",
     answer: s.stateSchema,
+  },
+  fleet: {
+    method: "get",
+    path: "/api/v1/fleet",
+    summary: "Robots of all servers of the cluster, or of this one when it is by itself",
+    tag: "robots",
+    access: "look",
+    answer: s.fleetSchema,
+  },
+  fleetCommand: {
+    ...commands,
+    method: "post",
+    path: "/api/v1/fleet/{site}/command",
+    summary: "Asks the server that has a robot to do something, once for each id",
+    access: "look",
+    body: s.fleetCommandBody,
   },
   takeLease: {
     method: "post",

@@ -149,3 +149,68 @@ export const recordingsSchema = z.object({
   recordings: z.array(z.object({ robot: z.string(), file: z.string(), bytes: z.int() })),
 });
 export const readinessSchema = z.object({ ready: z.boolean(), robots: z.int(), connected: z.int() });
+
+const role = z.enum(["viewer", "programmer", "operator", "admin"]);
+const rights = z.record(text, role).describe("Another role for single robots and cells, by id or name.");
+export const sessionSchema = z.object({
+  accounts: z.boolean().describe("Whether people sign in by name here."),
+  name: z.string().nullable().describe("Who is signed in."),
+  role: role.nullable(),
+  rights,
+  passkeys: z.int(),
+});
+export const signInBody = z.object({ name: text, password: z.string().min(1).max(200) });
+export const invitationBody = z.object({
+  link: z.string().min(1).max(100).describe("What the link carries."),
+  name: z.exactOptional(text).describe("Asked for when the link is for nobody in particular."),
+  password: z.string().min(1).max(200),
+});
+/** Objects of WebAuthn level 3 as JSON; what is in them is judged where they are used. */
+export const webAuthnSchema = z.looseObject({ challenge: z.string() });
+export const webAuthnBody = z.looseObject({ id: z.string().max(1024), response: z.looseObject({}) });
+export const personBody = z.object({
+  role,
+  rights: rights.default({}),
+  renew: z.boolean().default(false).describe("true: a new link to choose a password; the old password ends."),
+});
+export const peopleSchema = z.object({
+  people: z.array(
+    z.object({ name: z.string(), role, rights, password: z.boolean(), passkeys: z.int(), invited: z.boolean() }),
+  ),
+});
+export const invitedSchema = z.object({ kind: z.literal("done"), link: z.string().nullable() });
+export type SessionInfo = z.infer<typeof sessionSchema>;
+export type Person = z.infer<typeof peopleSchema>["people"][number];
+
+export const fleetSchema = z.object({
+  robots: z.array(
+    z.object({
+      site: z.string(),
+      id: z.string(),
+      name: z.string(),
+      model: z.string(),
+      vendor: z.string(),
+      virtual: z.boolean(),
+      state: z.enum(["running", "idle", "attention", "stopped", "no-link"]),
+      news: z.string(),
+      holder: z.string().nullable(),
+      use: z.number().describe("Share of the time since its server was started in which it moved, 0 … 1."),
+      roundTrip_s: z.number().nullable(),
+      heard_ms: z.number().describe("When its last sample came, milliseconds since 1970."),
+    }),
+  ),
+});
+export const fleetCommandBody = z.object({
+  id: z
+    .string()
+    .regex(/^[\w-]{8,100}$/)
+    .describe("Makes it one command, however often it is sent."),
+  token: z.string().max(200).describe("Of `twincell token add` at the server that has the robot."),
+  robot: text,
+  act: z.discriminatedUnion("type", [
+    z.object({ type: z.literal("stop"), emergency: z.boolean() }),
+    z.object({ type: z.literal("move"), q_rad: angles }),
+    z.object({ type: z.literal("run"), program }),
+  ]),
+});
+export type FleetEntry = z.infer<typeof fleetSchema>["robots"][number];

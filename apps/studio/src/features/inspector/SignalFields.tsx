@@ -2,6 +2,7 @@ import type { CommentStep, Program, RepeatStep, SetStep, WaitForStep } from "@tw
 import { changeStep } from "../../stores/program.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { words } from "../../messages/index.ts";
+import { ConditionField, LimitFields } from "./ComputeFields.tsx";
 
 const ON_OFF = [
   { value: "on", words: words.common.on },
@@ -42,6 +43,13 @@ export function SetFields({ program, step }: { program: Program; step: SetStep }
 /** Which line, and what it must be. */
 export function WaitForFields({ program, step }: { program: Program; step: WaitForStep }) {
   const { when } = step;
+  if ("expression" in when)
+    return (
+      <>
+        <ConditionField program={program} step={step} />
+        <LimitFields step={step} />
+      </>
+    );
   return (
     <>
       <SignalChoice
@@ -50,7 +58,7 @@ export function WaitForFields({ program, step }: { program: Program; step: WaitF
         signal={when.signal}
         onChange={signal =>
           changeStep(step.id, words.undo.signal, before =>
-            before.type === "wait-for" ? { ...before, when: { ...before.when, signal } } : before,
+            before.type === "wait-for" ? { ...before, when: { ...when, signal } } : before,
           )
         }
       />
@@ -63,14 +71,14 @@ export function WaitForFields({ program, step }: { program: Program; step: WaitF
             options={ON_OFF}
             onChange={is =>
               changeStep(step.id, words.undo.signal, before =>
-                before.type === "wait-for"
-                  ? { ...before, when: { signal: before.when.signal, is: is === "on" } }
-                  : before,
+                before.type === "wait-for" ? { ...before, when: { signal: when.signal, is: is === "on" } } : before,
               )
             }
           />
         </div>
       )}
+      <ConditionField program={program} step={step} />
+      <LimitFields step={step} />
     </>
   );
 }

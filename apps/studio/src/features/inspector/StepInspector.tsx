@@ -5,6 +5,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
+import { AssignFields, CallFields, ConditionField } from "./ComputeFields.tsx";
 import { CommentFields, RepeatFields, SetFields, WaitForFields } from "./SignalFields.tsx";
 
 export function StepInspector({ program, step, index }: { program: Program; step: Step; index: number }) {
@@ -77,6 +78,9 @@ export function StepInspector({ program, step, index }: { program: Program; step
         {step.type === "wait-for" && <WaitForFields program={program} step={step} />}
         {step.type === "comment" && <CommentFields step={step} />}
         {step.type === "repeat" && <RepeatFields step={step} />}
+        {(step.type === "if" || step.type === "while") && <ConditionField program={program} step={step} />}
+        {step.type === "assign" && <AssignFields program={program} step={step} />}
+        {step.type === "call" && <CallFields program={program} step={step} />}
         <div className="row-flex">
           <button className="btn grow" onClick={() => runCommand("program.go-to")}>
             {words.tree.goTo}

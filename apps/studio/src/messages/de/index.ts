@@ -4,6 +4,10 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { peopleWords } from "./people.ts";
+import { headset } from "./headset.ts";
+import { offline } from "./offline.ts";
+import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
 export { sentences } from "./sentences.ts";
@@ -21,6 +25,10 @@ export const catalogue: Translation<typeof en> = {
   ...controlWords,
   ...recordsWords,
   direct,
+  people: peopleWords,
+  headset,
+  offline,
+  phone,
   scene,
   text: textWords,
   video: videoWords,

@@ -1,5 +1,5 @@
 /** Who may hold a jog command down. */
-export type JogSource = "pendant" | "keyboard" | "gamepad" | "headset";
+export type JogSource = "pendant" | "keyboard" | "gamepad" | "headset" | "phone";
 
 /** Six of the tool tip, or the joints of an arm with seven. */
 export const MAX_COORDINATES = 7;

@@ -28,6 +28,7 @@ import { openInWorker } from "../history/recordings.ts";
 import { askBeforeRun, startRunQuestions } from "../run/ask-before-run.ts";
 import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
+import { connectionCommands } from "./connection-commands.ts";
 import { showAs, startCellConnection, tellRefused, theConnected } from "./cell-connection.ts";
 import { runStation, startStations } from "./stations.ts";
 import { travelBack, type TravelBack } from "../history/travel-back.ts";
@@ -230,6 +231,7 @@ export function startCellControl(): void {
   });
   startRunQuestions();
   registerCommands([
+    ...connectionCommands(),
     {
       id: "run.start",
       group: "play",

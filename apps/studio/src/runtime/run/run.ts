@@ -9,6 +9,7 @@ import {
 } from "@twincell/controllers";
 import {
   unrolled,
+  withPredicateLines,
   type CommandOutcome,
   type Dialect,
   type EmittedFile,
@@ -129,7 +130,7 @@ const sameLines = (a: ReadonlyMap<string, boolean | number>, b: ReadonlyMap<stri
   a.size === b.size && [...a].every(([name, value]) => b.get(name) === value);
 function withSignals(step: Step, called: (signal: string) => string): Step {
   if (step.type === "set") return { ...step, signal: called(step.signal) };
-  return step.type === "wait-for" ? { ...step, when: { ...step.when, signal: called(step.when.signal) } } : step;
+  return step.type === "wait-for" ? { ...step, when: withPredicateLines(step.when, called) } : step;
 }
 
 /** A run under way. */

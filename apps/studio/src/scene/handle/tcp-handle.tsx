@@ -2,14 +2,26 @@ import type { Pose } from "@twincell/core";
 import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { Color, DoubleSide, type Group, type Mesh, MeshBasicMaterial, PerspectiveCamera, Vector3 } from "three";
+import {
+  Color,
+  DoubleSide,
+  Float32BufferAttribute,
+  type Group,
+  type Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Vector3,
+} from "three";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { useStore } from "zustand";
 import { theLive } from "../../runtime/live.ts";
 import { jogStore } from "../../stores/jog.ts";
+import { viewStore } from "../../stores/view.ts";
 import type { Interaction } from "../interaction.ts";
 import type { SceneTheme } from "../theme.ts";
 import { toScene } from "../world-space.ts";
 import { ghostGeometry } from "./ghost-geometry.ts";
-import { handleShapes } from "./handle-shapes.ts";
+import { handleShapes, type HandleShape } from "./handle-shapes.ts";
 
 /** Radius of the rings: this share of half the picture's height, whatever the distance; in a headset a fixed size. */
 const SHARE = 0.135;
@@ -37,6 +49,7 @@ export function TcpHandle({
   readonly targets: { current: readonly Mesh[] };
 }) {
   const group = useRef<Group>(null);
+  const inHeadset = useStore(viewStore, state => state.inHeadset);
   const shapes = useMemo(handleShapes, []);
   const materials = useMemo(
     () =>
@@ -94,8 +107,9 @@ export function TcpHandle({
 
   return (
     <group ref={group} visible={shown} userData={{ unpickable: true }}>
+      {inHeadset && <WholeHandle theme={theme} shapes={shapes} />}
       {shapes.map((shape, i) => (
-        <group key={shape.part}>
+        <group key={shape.part} visible={!inHeadset}>
           <mesh geometry={shape.seen} material={materials[i]!} renderOrder={20} raycast={() => undefined} />
           <mesh
             ref={mesh => {
@@ -108,6 +122,42 @@ export function TcpHandle({
         </group>
       ))}
     </group>
+  );
+}
+
+/** In a headset the handle is taken as a whole: one draw call, its colours in its corners. */
+function WholeHandle({ theme, shapes }: { readonly theme: SceneTheme; readonly shapes: readonly HandleShape[] }) {
+  const geometry = useMemo(() => {
+    const parts = shapes.map(({ part, color, seen }) => {
+      const one = seen.toNonIndexed();
+      const { r, g, b } = part === "free" ? theme.accent : new Color(color);
+      const { count } = one.getAttribute("position");
+      one.setAttribute(
+        "color",
+        new Float32BufferAttribute(
+          Float32Array.from({ length: 3 * count }, (_, i) => [r, g, b][i % 3]!),
+          3,
+        ),
+      );
+      return one;
+    });
+    const whole = mergeGeometries(parts);
+    for (const one of parts) one.dispose();
+    return whole;
+  }, [shapes, theme]);
+  useEffect(() => () => geometry.dispose(), [geometry]);
+  return (
+    <mesh name="whole-handle" geometry={geometry} renderOrder={20} raycast={() => undefined}>
+      <meshBasicMaterial
+        vertexColors
+        transparent
+        opacity={0.85}
+        depthTest={false}
+        depthWrite={false}
+        toneMapped={false}
+        side={DoubleSide}
+      />
+    </mesh>
   );
 }
 

@@ -2,7 +2,17 @@ import { identity } from "@twincell/core";
 import type { ObjectRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { type BufferGeometry, Color, EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
+import {
+  BoxGeometry,
+  type BufferGeometry,
+  Color,
+  EdgesGeometry,
+  type Group,
+  type LineSegments,
+  type Mesh,
+  Vector3,
+} from "three";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { partOffset, physicsNow } from "../../runtime/physics/physics.ts";
 import { GraspMark } from "../physical/grasp-mark.tsx";
 import { paintTouching } from "../paint.ts";
@@ -18,7 +28,16 @@ import type { SceneTheme } from "../theme.ts";
 const place = identity();
 
 /** One thing in the cell: furniture, work piece or wall. */
-export function ObjectView({ object, theme }: { readonly object: ObjectRecord; readonly theme: SceneTheme }) {
+export function ObjectView({
+  object,
+  theme,
+  glass = false,
+}: {
+  readonly object: ObjectRecord;
+  readonly theme: SceneTheme;
+  /** Walls are seen through: a person stands among them. */
+  readonly glass?: boolean;
+}) {
   const group = useRef<Group>(null);
   const geometry = useMemo(() => shapeGeometry(object.shape), [object.shape]);
   const edges = useMemo(() => new EdgesGeometry(geometry, 40), [geometry]);
@@ -68,7 +87,7 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
       {object.shape.kind === "part" ? (
         <Part shape={object.shape} />
       ) : wall ? (
-        <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
+        <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} glass={glass} />
       ) : cardboard ? (
         <Carton geometry={geometry} size_m={box} color={object.color} />
       ) : (
@@ -113,7 +132,9 @@ function Wall({
   color,
   size_m,
   theme,
+  glass,
 }: {
+  readonly glass: boolean;
   readonly geometry: BufferGeometry;
   readonly edges: EdgesGeometry;
   readonly color: string;
@@ -133,13 +154,19 @@ function Wall({
   useFrame(({ camera }) => {
     if (!mesh.current || !lines.current || !size_m) return;
     const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
-    mesh.current.visible = !hides;
-    lines.current.visible = !hides;
+    mesh.current.visible = !hides || glass;
+    lines.current.visible = !hides && !glass;
   }, -7);
   return (
     <>
-      <mesh ref={mesh} geometry={geometry} receiveShadow>
-        <meshLambertMaterial color={paint} />
+      <mesh ref={mesh} geometry={geometry} receiveShadow={!glass}>
+        <meshLambertMaterial
+          key={glass ? "glass" : "panel"}
+          color={paint}
+          transparent={glass}
+          opacity={glass ? 0.1 : 1}
+          depthWrite={!glass}
+        />
       </mesh>
       <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}>
         <lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} />
@@ -167,12 +194,20 @@ function Carton({
   const tape = Math.min(0.05, (long ? y : x) * 0.2);
   const thin = 0.0006;
   const down = Math.min(0.06, z * 0.3);
-  const strip = (key: string, place: [number, number, number], size: [number, number, number]) => (
-    <mesh key={key} position={long ? place : [place[1], place[0], place[2]]} receiveShadow>
-      <boxGeometry args={long ? size : [size[1], size[0], size[2]]} />
-      <meshStandardMaterial color="#c9a572" roughness={0.28} metalness={0} transparent opacity={0.82} />
-    </mesh>
-  );
+  const tapes = useMemo(() => {
+    const strip = (place: [number, number, number], size: [number, number, number]) =>
+      new BoxGeometry(...(long ? size : ([size[1], size[0], size[2]] as const))).translate(
+        ...(long ? place : ([place[1], place[0], place[2]] as const)),
+      );
+    const parts = [
+      strip([0, 0, z / 2 + thin / 2], [length + 2 * thin, tape, thin]),
+      ...[1, -1].map(side => strip([side * (length / 2 + thin / 2), 0, z / 2 - down / 2], [thin, tape, down])),
+    ];
+    const merged = mergeGeometries(parts);
+    for (const part of parts) part.dispose();
+    return merged;
+  }, [long, length, tape, thin, down, z]);
+  useEffect(() => () => tapes.dispose(), [tapes]);
   return (
     <>
       <mesh geometry={geometry} castShadow receiveShadow>
@@ -182,10 +217,9 @@ function Carton({
         <boxGeometry args={long ? [length * 0.994, 0.0018, 0.0004] : [0.0018, length * 0.994, 0.0004]} />
         <meshStandardMaterial color="#5d4325" roughness={1} />
       </mesh>
-      {strip("lid", [0, 0, z / 2 + thin / 2], [length + 2 * thin, tape, thin])}
-      {[1, -1].map(side =>
-        strip(`end ${side}`, [side * (length / 2 + thin / 2), 0, z / 2 - down / 2], [thin, tape, down]),
-      )}
+      <mesh geometry={tapes} receiveShadow>
+        <meshStandardMaterial color="#c9a572" roughness={0.28} metalness={0} transparent opacity={0.82} />
+      </mesh>
     </>
   );
 }

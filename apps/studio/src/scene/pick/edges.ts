@@ -11,8 +11,8 @@ import {
   transformPoint,
   type Vector3,
 } from "@twincell/core";
-import { type ObjectRecord, type Shape, shapeMesh } from "@twincell/project";
-import type { TraceState } from "../../stores/trace.ts";
+import { type CellDocument, type ObjectRecord, type Shape, shapeMesh } from "@twincell/project";
+import { traceStore, type TraceState } from "../../stores/trace.ts";
 import type { Ray } from "../handle/drag-maths.ts";
 
 const known = new WeakMap<Shape, FeatureEdges>();
@@ -50,4 +50,41 @@ export function chosenEdges(object: ObjectRecord, pick: EdgePick, loop: boolean)
     edge: chain.id,
     polyline: inWorld(reversed ? chain.points.toReversed() : chain.points),
   }));
+}
+
+/** The nearest edge under a ray, of all that is not a wall. */
+export function nearestEdge(
+  document: CellDocument,
+  ray: Ray,
+  depth_m: number,
+  tolerance_rad: number,
+): { readonly object: ObjectRecord; readonly pick: EdgePick } | null {
+  let best: { readonly object: ObjectRecord; readonly pick: EdgePick } | null = null;
+  for (const object of document.objects) {
+    if (object.role === "wall") continue;
+    const pick = edgeUnder(object, ray, depth_m, tolerance_rad);
+    if (pick && (!best || pick.distance_m < best.pick.distance_m)) best = { object, pick };
+  }
+  return best;
+}
+
+/** Shows the edges that a press would take; null shows none. */
+export function hoverEdges(object: string | null, edges: readonly ChosenEdge[]): void {
+  const { hovered } = traceStore.getState();
+  if (object === null) {
+    if (hovered) traceStore.setState({ hovered: null });
+    return;
+  }
+  const polyline = edges.flatMap(edge => edge.polyline);
+  if (hovered?.object !== object || JSON.stringify(hovered.polyline) !== JSON.stringify(polyline))
+    traceStore.setState({ hovered: { object, polyline } });
+}
+
+/** Takes edges to be traced; those that are all taken already are put back. */
+export function takeEdges(edges: readonly ChosenEdge[]): void {
+  const { chosen } = traceStore.getState();
+  const same = (a: ChosenEdge) => (b: ChosenEdge) => a.object === b.object && a.edge === b.edge;
+  const all = edges.every(edge => chosen.some(same(edge)));
+  const kept = chosen.filter(edge => !edges.some(same(edge)));
+  traceStore.setState({ chosen: all ? kept : [...kept, ...edges] });
 }

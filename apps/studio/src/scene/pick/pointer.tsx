@@ -18,7 +18,7 @@ import { handleAxes } from "../handle/tcp-handle.tsx";
 import { type HandlePart, type Interaction, type PointerLabel, sayAtPointer } from "../interaction.ts";
 import { toWorld } from "../world-space.ts";
 import { WORDS } from "../words.ts";
-import { chosenEdges, edgeUnder } from "./edges.ts";
+import { chosenEdges, hoverEdges, nearestEdge, takeEdges } from "./edges.ts";
 import { measurePoint } from "./measure-point.ts";
 import { pathUnder } from "./path-under.ts";
 import { nearestThing } from "./raycast.ts";
@@ -228,35 +228,16 @@ export function Pointer({
     viewStore.getState().mode === "check" ? pathUnder(playStore.getState().path, ray, tolerance_rad()) : undefined;
 
   const lookForEdge = (ray: Ray, depth_m: number, hidden: boolean): void => {
-    const { hovered } = traceStore.getState();
     const picked = hidden ? null : edgeAt(ray, depth_m);
-    if (!picked) {
-      if (hovered) traceStore.setState({ hovered: null });
-      return;
-    }
-    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || traceStore.getState().wholeLoop);
-    const polyline = edges.flatMap(edge => edge.polyline);
-    if (hovered?.object !== picked.object.id || JSON.stringify(hovered.polyline) !== JSON.stringify(polyline))
-      traceStore.setState({ hovered: { object: picked.object.id, polyline } });
+    const whole = interaction.shift || traceStore.getState().wholeLoop;
+    hoverEdges(picked?.object.id ?? null, picked ? chosenEdges(picked.object, picked.pick, whole) : []);
   };
   /** How far off the pointer a line may be seen. */
   const tolerance_rad = (): number => {
     const fov = camera instanceof PerspectiveCamera ? (camera.fov * Math.PI) / 180 : 0.6;
     return (EDGE_TOLERANCE_PX * fov) / gl.domElement.clientHeight;
   };
-  const edgeAt = (ray: Ray, depth_m: number) => {
-    const tolerance = tolerance_rad();
-    let best: {
-      readonly object: CellDocument["objects"][number];
-      readonly pick: NonNullable<ReturnType<typeof edgeUnder>>;
-    } | null = null;
-    for (const object of document.objects) {
-      if (object.role === "wall") continue;
-      const pick = edgeUnder(object, ray, depth_m, tolerance);
-      if (pick && (!best || pick.distance_m < best.pick.distance_m)) best = { object, pick };
-    }
-    return best;
-  };
+  const edgeAt = (ray: Ray, depth_m: number) => nearestEdge(document, ray, depth_m, tolerance_rad());
 
   /** A click: takes the edge while edges are being chosen, selects the thing otherwise. */
   const choose = (more: boolean): void => {
@@ -283,12 +264,7 @@ export function Pointer({
     const hit = world.current ? nearestThing(work.caster, world.current) : null;
     const picked = edgeAt(aim(), hit?.hit.distance ?? Infinity);
     if (!picked) return;
-    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || trace.wholeLoop);
-    const same = (a: { object: string; edge: number }) => (b: { object: string; edge: number }) =>
-      a.object === b.object && a.edge === b.edge;
-    const all = edges.every(edge => trace.chosen.some(same(edge)));
-    const kept = trace.chosen.filter(edge => !edges.some(same(edge)));
-    traceStore.setState({ chosen: all ? kept : [...kept, ...edges] });
+    takeEdges(chosenEdges(picked.object, picked.pick, interaction.shift || trace.wholeLoop));
   };
 
   useFrame(() => {

@@ -36,13 +36,21 @@ const rests = (above: Box3, below: Box3): boolean =>
   above.max.y > below.min.y;
 
 /** What the cell stands in: floor, backdrop, light, and the contact shadows of what stands on something. */
-export function RunContext({ theme, document }: { readonly theme: SceneTheme; readonly document: CellDocument }) {
+export function RunContext({
+  theme,
+  document,
+  sky,
+}: {
+  readonly theme: SceneTheme;
+  readonly document: CellDocument;
+  readonly sky: boolean;
+}) {
   const things = useMemo(() => standing(document), [document]);
   const strength = theme.dark ? 0.62 : 0.34;
   const base = document.robot.worldFromBase.position;
   return (
     <>
-      <Sky theme={theme} />
+      {sky && <Sky theme={theme} />}
       <Floor theme={theme} />
       <Light theme={theme} anyChange={document} />
       {base[2] < 0.004 && (

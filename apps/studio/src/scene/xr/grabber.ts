@@ -1,7 +1,12 @@
-import { compose, distance, identity, inverse, type Pose } from "@twincell/core";
+import { compose, copyPose, distance, identity, inverse, lerp, type Pose, slerp } from "@twincell/core";
 import { beginDrag, dragTcp, refuseDrag } from "../../runtime/jog/drag.ts";
 import { onTouching, theLive } from "../../runtime/live.ts";
+import { setEnabled } from "../../runtime/robot/cell-connection.ts";
+import { connectionStore } from "../../stores/connection.ts";
+import { headsetStore } from "../../stores/headset.ts";
 import { playStore } from "../../stores/play.ts";
+import { traceStore } from "../../stores/trace.ts";
+import { words } from "../../messages/index.ts";
 import { carried } from "../handle/drag-maths.ts";
 import type { Interaction } from "../interaction.ts";
 import { WORDS } from "../words.ts";
@@ -25,12 +30,33 @@ interface Hand {
   seen: boolean;
   squeezed: boolean;
   pointed: boolean;
+  /** It is one of the hands of this frame. */
+  present: boolean;
 }
 interface Taken {
   readonly source: XRInputSource;
   readonly ray: boolean;
   readonly handFromTcp: Pose<"hand", "tcp">;
+  /** Where the hand was when it took the tool, and the tool then: what a ratio and a lock count from. */
+  readonly worldFromTcp: Pose<"world", "tcp">;
+  /** The hand is not seen: the tool stays, and is taken anew where the hand is found. */
+  lost: boolean;
   readonly end: () => void;
+}
+
+/** From here on the tool is as if it were fixed in the hand as they are now: taking it moves nothing. */
+function takeAnew(taken: Taken, worldFromHand: Pose<"world", "hand">): void {
+  compose(inverse(worldFromHand), theLive().worldFromTcp, taken.handFromTcp);
+  copyPose(theLive().worldFromTcp, taken.worldFromTcp);
+}
+
+/** The share of the way that the person chose, and only the part of it that is not locked (rows L-28, L-30). */
+function limited(from: Pose<"world", "tcp">, wanted: Pose<"world", "tcp">): void {
+  const { lock, ratio } = headsetStore.getState();
+  if (lock === "turn") for (let k = 0; k < 3; k++) wanted.position[k] = from.position[k]!;
+  else if (ratio !== 1) lerp(from.position, wanted.position, ratio, wanted.position);
+  if (lock === "move") for (let k = 0; k < 4; k++) wanted.quaternion[k] = from.quaternion[k]!;
+  else if (ratio !== 1) slerp(from.quaternion, wanted.quaternion, ratio, wanted.quaternion);
 }
 
 /**
@@ -62,24 +88,63 @@ export class Grabber {
 
   /** Reads every hand of the frame. Allocates nothing of its own while hands only move. */
   read(session: XRSession, frame: XRFrame, space: XRReferenceSpace, room: Room): void {
+    for (const [, hand] of this.#hands) hand.present = false;
     for (const source of session.inputSources) {
       let hand = this.#hands.get(source);
       if (!hand)
         this.#hands.set(
           source,
-          (hand = { state: handState(), last: [0, 0, 0], seen: false, squeezed: false, pointed: false }),
+          (hand = { state: handState(), last: [0, 0, 0], seen: false, squeezed: false, pointed: false, present: true }),
         );
+      hand.present = true;
       readHand(source, frame, space, room, hand.state);
       this.#follow(source, hand);
     }
+    // A controller that was switched off, or a hand that became a controller, comes back as another one.
+    for (const [source, hand] of this.#hands) {
+      if (hand.present) continue;
+      if (this.#taken?.source === source) this.#drop();
+      this.#hands.delete(source);
+    }
     if (this.#taken && !this.#hands.get(this.#taken.source)?.state.tracked) this.#interaction.wanting = false;
+    this.#enable();
+  }
+
+  /**
+   * The enabling switch of a connected robot: the grip, or the pinch, of the hand that wears the plate, held away from
+   * the tool. A hand that is not seen has let go.
+   */
+  #enable(): void {
+    const { station, enabled } = connectionStore.getState();
+    if (station === null && !enabled) return;
+    const { wrist } = headsetStore.getState();
+    let held = false;
+    for (const [source, { state }] of this.#hands) {
+      const wears = wrist === "stand" || source.handedness === wrist;
+      if (wears && state.tracked && state.squeezing && this.#taken?.source !== source) held = true;
+    }
+    if (station !== null && held !== enabled) setEnabled(held);
   }
 
   #take(source: XRInputSource, ray: boolean, worldFromHand: Pose<"world", "hand">): void {
     this.#drop();
-    const handFromTcp = compose(inverse(worldFromHand), theLive().worldFromTcp, identity<"hand", "tcp">());
-    this.#taken = { source, ray, handFromTcp, end: beginDrag(this.#drop) };
+    if (headsetStore.getState().emergency) {
+      pulse(source, 0.7, 45);
+      refuseDrag(words.headset.emergencyPressed);
+      return;
+    }
+    const taken: Taken = {
+      source,
+      ray,
+      handFromTcp: identity(),
+      worldFromTcp: identity(),
+      lost: false,
+      end: beginDrag(this.#drop),
+    };
+    this.#taken = taken;
+    takeAnew(taken, worldFromHand);
     this.#interaction.draggedPart = "free";
+    if (!headsetStore.getState().hintDone) headsetStore.setState({ hintDone: true });
     pulse(source, 0.35, 25);
   }
 
@@ -97,12 +162,13 @@ export class Grabber {
     const tip = theLive().worldFromTcp.position;
     const { position } = state.worldFromHand;
     if (!this.#taken && state.tracked && !playStore.getState().playing) {
-      if (state.squeezing && !hand.squeezed && distance(position, tip) < GRAB_NEAR_M)
+      if (state.squeezing && !hand.squeezed && distance(state.holds, tip) < GRAB_NEAR_M)
         this.#take(source, false, state.worldFromHand);
       else if (
         state.pointing &&
         !hand.pointed &&
         this.#keys.size === 0 &&
+        !traceStore.getState().active &&
         rayMisses(state.worldFromRay, tip) < RAY_NEAR_M
       )
         this.#take(source, true, state.worldFromRay);
@@ -115,22 +181,27 @@ export class Grabber {
     hand.squeezed = state.squeezing;
     hand.pointed = state.pointing;
     if (this.#taken?.source !== source) return;
+    // A hand that is not seen holds what it holds; found again, it goes on from where it is (0 mm).
+    if (!state.tracked) {
+      this.#taken.lost = true;
+      return;
+    }
     if (!(this.#taken.ray ? state.pointing : state.squeezing)) {
       this.#drop();
       return;
     }
-    if (!state.tracked) return;
-    if (jump_m > LONGEST_JUMP_M) {
+    const carries = this.#taken.ray ? state.worldFromRay : state.worldFromHand;
+    if (this.#taken.lost) {
+      this.#taken.lost = false;
+      takeAnew(this.#taken, carries);
+    } else if (jump_m > LONGEST_JUMP_M) {
       this.#drop();
       pulse(source, 0.7, 45);
       refuseDrag(WORDS.handJumped(jump_m));
       return;
     }
-    carried(
-      this.#taken.ray ? state.worldFromRay : state.worldFromHand,
-      this.#taken.handFromTcp,
-      this.#interaction.wanted,
-    );
+    carried(carries, this.#taken.handFromTcp, this.#interaction.wanted);
+    limited(this.#taken.worldFromTcp, this.#interaction.wanted);
     const outcome = dragTcp(this.#interaction.wanted);
     this.#interaction.wanting = outcome.kind === "blocked";
     const now_ms = performance.now();

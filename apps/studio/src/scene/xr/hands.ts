@@ -1,5 +1,5 @@
 import type { Pose } from "@twincell/core";
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Matrix4, Vector3 } from "three";
 import { matrixPose } from "../pose-matrix.ts";
 
 /** Fingers nearer than this hold; farther than that let go: between the two nothing changes. */
@@ -12,23 +12,27 @@ export const RAY_NEAR_M = 0.11;
 const place = new Matrix4();
 const thumb = new Vector3();
 const index = new Vector3();
-const turn = new Quaternion();
-const one = new Vector3(1, 1, 1);
 
 /** What one hand does in this frame. Written in place. */
 export interface HandState {
-  /** Place of the grip (controller) or between thumb and index (bare hand), in the world. */
+  /** What carries: the grip of a controller, the wrist of a bare hand, which closing the fingers does not move. */
   readonly worldFromHand: Pose<"world", "hand">;
+  /** Where it takes hold: at the grip, or between thumb and index. */
+  readonly holds: Pose<"world", "hand">["position"];
   /** Place and way of the pointing ray. */
   readonly worldFromRay: Pose<"world", "hand">;
   tracked: boolean;
+  /** Its position was measured once, not guessed from how an arm is built. */
+  measured: boolean;
   squeezing: boolean;
   pointing: boolean;
 }
 export const handState = (): HandState => ({
   worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
+  holds: [0, 0, 0],
   worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
   tracked: false,
+  measured: false,
   squeezing: false,
   pointing: false,
 });
@@ -59,14 +63,19 @@ export function readHand(
     return;
   }
   const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
-  out.tracked = grip !== undefined;
-  if (grip) intoWorld(grip.transform, room, out.worldFromHand);
+  // One that was measured and now is guessed is out of sight; one that is never measured has only its guess.
+  if (grip?.emulatedPosition === false) out.measured = true;
+  out.tracked = grip ? !grip.emulatedPosition || !out.measured : false;
+  if (grip && out.tracked) {
+    intoWorld(grip.transform, room, out.worldFromHand);
+    for (let k = 0; k < 3; k++) out.holds[k] = out.worldFromHand.position[k]!;
+  }
   const buttons = source.gamepad?.buttons;
   out.squeezing = buttons?.[1]?.pressed === true;
   out.pointing = buttons?.[0]?.pressed === true;
 }
 
-/** Between thumb and index, so that closing them moves nothing; turned as the wrist is. */
+/** Takes hold between thumb and index and carries with the wrist. */
 function readFingers(hand: XRHand, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
   const thumbTip = joint(hand, "thumb-tip", frame, space);
   const indexTip = joint(hand, "index-finger-tip", frame, space);
@@ -76,16 +85,15 @@ function readFingers(hand: XRHand, frame: XRFrame, space: XRReferenceSpace, room
   if (!thumbTip || !indexTip || !wrist) return;
   const a = thumbTip.transform.position;
   const b = indexTip.transform.position;
-  const o = wrist.transform.orientation;
   thumb.set(a.x, a.y, a.z);
   index.set(b.x, b.y, b.z);
   const gap = thumb.distanceTo(index);
   out.squeezing = out.squeezing ? gap < PINCH_OPEN_M : gap < PINCH_CLOSED_M;
-  place
-    .compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one)
-    .premultiply(room.sceneFromRoom)
-    .premultiply(room.worldFromScene);
-  matrixPose(place, out.worldFromHand);
+  intoWorld(wrist.transform, room, out.worldFromHand);
+  thumb.add(index).multiplyScalar(0.5).applyMatrix4(room.sceneFromRoom).applyMatrix4(room.worldFromScene);
+  out.holds[0] = thumb.x;
+  out.holds[1] = thumb.y;
+  out.holds[2] = thumb.z;
 }
 function joint(hand: XRHand, name: XRHandJoint, frame: XRFrame, space: XRReferenceSpace): XRJointPose | undefined {
   const at = hand.get(name);

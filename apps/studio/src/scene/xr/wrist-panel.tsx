@@ -1,102 +1,71 @@
-import { degrees, millimetres } from "@twincell/core";
-import { useFrame } from "@react-three/fiber";
 import { Container, Text } from "@react-three/uikit";
-import { useEffect, useRef, useState } from "react";
+import { useEffect } from "react";
 import { useStore } from "zustand";
-import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
-import { programOf } from "../../stores/document.ts";
-import { runCommand } from "../../stores/commands.ts";
-import { leaveHeadset } from "../../stores/headset.ts";
+import { connectionStore } from "../../stores/connection.ts";
+import { robotOf } from "../../stores/document.ts";
+import { headsetStore, openTab, type HeadsetTab } from "../../stores/headset.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { noticeStore } from "../../stores/notices.ts";
 import { playStore } from "../../stores/play.ts";
-import { deleteSteps } from "../../stores/program.ts";
-import { toggleRoom } from "../../stores/room.ts";
-import { sound } from "../../stores/sound.ts";
 import { stationStore } from "../../stores/stations.ts";
-import { stopEverything } from "../../stores/stop.ts";
+import { showMode } from "../../stores/view.ts";
 import { watchStore } from "../../stores/watch.ts";
+import { say, words } from "../../messages/index.ts";
 import { WORDS } from "../words.ts";
 import { aimAt, type KeyAim } from "./grabber.ts";
-import { Key, Row, WORDS_PX } from "./keys.tsx";
-import { fixed } from "../../messages/numbers.ts";
-import { say } from "../../messages/index.ts";
+import { Key } from "./keys.tsx";
+import { PAGES } from "./plate-keys.tsx";
 
-const READ_EVERY_S = 0.3;
-/** Capitals of 32 px are 12 mm high: at half an arm's length as large as 29 mm at 1.2 m. */
+/** 276 × 200 mm. */
 const METRES_PER_PIXEL = 0.0005;
+const WIDTH_PX = 552;
+const SMALL_PX = 24;
+const TABS: readonly HeadsetTab[] = ["teach", "check", "run", "cell", "history"];
+const SAID = words.headset;
 
 /** The menu that rides on a wrist. `wearer`: the hand it rides on, whose own ray passes through it. */
-export function WristPanel({ keys, wearer }: { readonly keys: KeyAim; readonly wearer: XRHandedness }) {
+export function WristPanel({
+  keys,
+  wearer,
+  shown,
+}: {
+  readonly keys: KeyAim;
+  readonly wearer: XRHandedness;
+  readonly shown: boolean;
+}) {
   useEffect(
     () => () => {
       aimAt(keys, "wrist", false);
     },
     [keys],
   );
+  useEffect(() => {
+    if (!shown) aimAt(keys, "wrist", false);
+  }, [keys, shown]);
   return (
     <Container
       id="wrist-panel"
+      anchorY="bottom"
       flexDirection="column"
       gap={12}
-      padding={18}
-      width={480}
+      padding={14}
+      width={WIDTH_PX}
       pixelSize={METRES_PER_PIXEL}
       backgroundColor="#161a1d"
       borderRadius={22}
       borderWidth={2}
       borderColor="#3a444a"
+      pointerEvents={shown ? "auto" : "none"}
       pointerEventsType={(_id: number, _type: string, state: unknown) => handOf(state) !== wearer}
       onHoverChange={(aimed: boolean) => {
-        aimAt(keys, "wrist", aimed);
+        aimAt(keys, "wrist", aimed && shown);
       }}
     >
-      <ReadOut />
-      <State />
       <Said />
-      <Row>
-        <Key
-          id="record"
-          words={WORDS.record}
-          color="#3fb8b3"
-          ink="#04211f"
-          onPress={() => {
-            if (runCommand("program.record-ptp")) sound("done");
-          }}
-        />
-        <Key id="delete-last" words={WORDS.deletePoint} onPress={deleteLast} />
-      </Row>
-      <Row>
-        <PlayKey />
-        <Key
-          id="stop"
-          words={WORDS.stop}
-          color="#ff6157"
-          ink="#2a0705"
-          atOnce
-          onPress={() => {
-            if (!runCommand("stop")) stopEverything();
-          }}
-        />
-      </Row>
-      <Row>
-        <Key
-          id="camera"
-          words={WORDS.camera}
-          onPress={() => {
-            toggleRoom("cameras");
-          }}
-        />
-        <Key
-          id="history"
-          words={WORDS.history}
-          onPress={() => {
-            toggleRoom("history");
-          }}
-        />
-      </Row>
-      <Key id="leave" words={WORDS.leave} onPress={leaveHeadset} />
+      <Tabs />
+      <Page />
+      <Foot />
     </Container>
   );
 }
@@ -109,85 +78,104 @@ function handOf(state: unknown): unknown {
     : undefined;
 }
 
-function deleteLast(): void {
-  const { document } = cellStore.getState();
-  const last = programOf(document)?.steps.at(-1);
-  if (last) deleteSteps([last.id]);
-}
-
-function PlayKey() {
-  const playing = useStore(playStore, state => state.playing);
+function Tabs() {
+  const tab = useStore(headsetStore, state => state.tab);
   return (
-    <Key
-      id="play"
-      words={playing ? WORDS.pause : WORDS.play}
-      onPress={() => {
-        runCommand("play.toggle");
-      }}
-    />
+    <Container flexDirection="row" gap={6}>
+      {TABS.map(each => (
+        <Key
+          key={each}
+          id={`tab-${each}`}
+          words={SAID.tabs[each]}
+          strong={each === tab}
+          color={each === tab ? "#3fb8b3" : "#161a1d"}
+          height={64}
+          size={SMALL_PX}
+          onPress={() => {
+            openTab(each);
+            // Looking back is begun by its own panel; the others are the modes of the page.
+            if (each !== "history") showMode(each);
+          }}
+        />
+      ))}
+    </Container>
   );
 }
 
-/** How many points there are, or what is wrong now. */
-function State() {
-  const points = useStore(
-    cellStore,
-    ({ document }) => programOf(document)?.steps.filter(step => step.type === "move").length ?? 0,
-  );
-  const blocked = useStore(jogStore, state => state.blocked !== null);
-  const touching = useStore(watchStore, state => state.contacts.length > 0);
-  const words = blocked ? WORDS.blocked : touching ? WORDS.inContact : WORDS.points(points);
+function Page() {
+  const { tab, page } = useStore(headsetStore);
+  const pages = PAGES[tab];
+  const Shown = pages[page % pages.length]!;
+  return <Shown />;
+}
+
+/** Controller and speed, and the way to what else the tab holds. */
+function Foot() {
+  const { tab, page } = useStore(headsetStore);
+  const speed = useStore(playStore, state => state.speed);
+  const { station, view } = useStore(connectionStore);
+  const connected = useStore(stationStore, state => state.stations.find(each => each.id === station));
+  const robot = useStore(cellStore, state => robotOf(state.document)?.name ?? "");
+  const open = connected?.link.state === "open";
+  const pages = PAGES[tab].length;
   return (
-    <Text id="state" fontSize={WORDS_PX} color={blocked || touching ? "#ff8a82" : "#b9c4ca"}>
-      {words}
-    </Text>
+    <Container flexDirection="row" alignItems="center" justifyContent="space-between" height={52} paddingX={4}>
+      <Container flexDirection="row" alignItems="center" gap={10}>
+        <Container
+          width={16}
+          height={16}
+          borderRadius={8}
+          backgroundColor={station === null ? "#8b969c" : open ? "#57d783" : "#ffcf70"}
+        />
+        <Text id="controller" fontSize={SMALL_PX} color="#dfe6e9">
+          {station === null ? SAID.simulated(robot) : SAID.connected(connected?.name ?? robot, SAID.state[view])}
+        </Text>
+      </Container>
+      <Text id="speed" fontSize={SMALL_PX} fontWeight="bold" color="#f2f6f8">
+        {SAID.speed(Math.round(speed * 100))}
+      </Text>
+      {pages > 1 && (
+        <Key
+          id="more"
+          words={SAID.more((page % pages) + 1, pages)}
+          height={52}
+          size={SMALL_PX}
+          narrow={140}
+          onPress={() => {
+            headsetStore.setState({ page: (page + 1) % pages });
+          }}
+        />
+      )}
+    </Container>
   );
 }
 
 /**
- * The last thing that went wrong: in the room nobody sees the notices of the page, nor the cards of other controllers.
+ * The last thing that was said, and what is wrong now: in the room nobody sees the notices of the page, nor the cards
+ * of other controllers.
  */
 function Said() {
-  const notice = useStore(
-    noticeStore,
-    ({ notices }) => notices.findLast(({ tone }) => tone === "bad" || tone === "warn")?.sentence ?? "",
-  );
+  const emergency = useStore(headsetStore, state => state.emergency);
+  const blocked = useStore(jogStore, state => state.blocked !== null);
+  const touching = useStore(watchStore, state => state.contacts.length > 0);
+  const notice = useStore(noticeStore, ({ notices }) => notices.at(-1));
   const other = useStore(stationStore, ({ stations }) => {
     const said = stations.find(station => station.notice !== "");
     return said ? `${said.name}: ${say(said.notice)}` : "";
   });
-  return notice || other ? (
-    <Text id="said" fontSize={WORDS_PX} color="#ffcf70">
-      {notice || other}
+  const bad = emergency || blocked || touching || notice?.tone === "bad";
+  const sentence = emergency
+    ? SAID.emergencyPressed
+    : notice?.tone === "bad" || notice?.tone === "warn"
+      ? notice.sentence
+      : blocked
+        ? WORDS.blocked
+        : touching
+          ? WORDS.inContact
+          : other || notice?.sentence || "";
+  return sentence === "" ? null : (
+    <Text id="said" fontSize={SMALL_PX} color={bad ? "#ff8a82" : "#ffcf70"} paddingX={4}>
+      {sentence}
     </Text>
-  ) : null;
-}
-
-/** Place of the tool tip, read three times a second. */
-function ReadOut() {
-  const [text, setText] = useState<readonly [string, string]>(["", ""]);
-  const since = useRef(READ_EVERY_S);
-  const seen = useRef(-1);
-  useFrame((_, dt_s) => {
-    since.current += dt_s;
-    const {
-      worldFromTcp: { position, quaternion },
-      revision,
-    } = theLive();
-    if (since.current < READ_EVERY_S || revision === seen.current) return;
-    since.current = 0;
-    seen.current = revision;
-    const tilt = Math.acos(Math.max(-1, Math.min(1, 2 * (quaternion[0] ** 2 + quaternion[1] ** 2) - 1)));
-    const [x, y, z] = position.map(metres => fixed(millimetres(metres), 1).replace(/^-(0.0)$/, "$1"));
-    setText([`X ${x}  Y ${y}`, `Z ${z} mm, ${WORDS.tilt} ${fixed(degrees(tilt), 1)}°`]);
-  });
-  return (
-    <Container flexDirection="column">
-      {text.map((line, i) => (
-        <Text key={i} fontSize={WORDS_PX} color="#f2f6f8">
-          {line}
-        </Text>
-      ))}
-    </Container>
   );
 }

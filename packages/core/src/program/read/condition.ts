@@ -1,5 +1,22 @@
-import type { Condition } from "../program.ts";
-import type { Reader } from "../../json/reader.ts";
+import { isFields, type Reader } from "../../json/reader.ts";
+import type { Condition, Predicate } from "../program.ts";
+import { readExpression } from "./expression.ts";
+import type { ProgramScope } from "./scope.ts";
+
+/** One line compared with something, or an expression that is yes or no. */
+export function readPredicate(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  what: string,
+  around: ProgramScope,
+): Predicate | undefined {
+  if (!isFields(value) || !("expression" in value)) return readCondition(reader, value, path, what);
+  reader.onlyKeys(value, path, `the condition of ${what}`, ["expression"]);
+  const place = `${path}.expression`;
+  const expression = readExpression(reader, value.expression, place, what, { type: "bool" }, around);
+  return expression === undefined ? undefined : { expression };
+}
 
 /**
  * A signal and what it is compared with. That the signal exists is for the checker to say: it can be connected later.

@@ -1,6 +1,7 @@
 import type { Vector3 } from "../../spatial/vector.ts";
 import {
   STEP_TYPES,
+  type AssignStep,
   type CallStep,
   type IfStep,
   type MessageStep,
@@ -11,10 +12,13 @@ import {
   type Step,
   type StopStep,
   type WaitForStep,
+  type WhileStep,
 } from "../program.ts";
-import { readCondition } from "./condition.ts";
+import { readPredicate } from "./condition.ts";
+import { readExpression } from "./expression.ts";
 import { readMove } from "./move.ts";
 import { keys, type Fields, type Reader } from "../../json/reader.ts";
+import type { Expression } from "../expression/expression.ts";
 import type { ProgramScope } from "./scope.ts";
 
 const BASE = ["id", "type", "name", "group"] as const;
@@ -139,14 +143,22 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
       ? { type: "set", signal, to, pulse_s }
       : reader.fault(`${path}.pulse_s`, `${what} sets a number; only true and false can be a pulse.`);
   },
-  "wait-for"(reader, fields, path, what) {
-    reader.onlyKeys(fields, path, what, keys<WaitForStep>()(...BASE, "when", "timeout_s"));
-    const when = readCondition(reader, fields.when, `${path}.when`, what);
-    if (fields.timeout_s === undefined) return when === undefined ? undefined : { type: "wait-for", when };
+  "wait-for"(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<WaitForStep>()(...BASE, "when", "timeout_s", "late"));
+    const when = readPredicate(reader, fields.when, `${path}.when`, what, around);
+    const late =
+      fields.late === undefined
+        ? {}
+        : { late: readSteps(reader, fields.late, `${path}.late`, `the list of steps of ${what}`, inside(around)) };
+    if (fields.timeout_s === undefined) {
+      if (fields.late !== undefined)
+        reader.fault(`${path}.late`, `${what} has steps for being late and no longest wait; give it timeout_s.`);
+      return when === undefined ? undefined : { type: "wait-for", when };
+    }
     const timeout_s = reader.number(fields.timeout_s, `${path}.timeout_s`, `the longest wait of ${what}`, "s");
     if (timeout_s !== undefined && !(timeout_s > 0))
       reader.fault(`${path}.timeout_s`, `the longest wait of ${what} is more than 0 s; here it is ${timeout_s}.`);
-    return when === undefined || timeout_s === undefined ? undefined : { type: "wait-for", when, timeout_s };
+    return when === undefined || timeout_s === undefined ? undefined : { type: "wait-for", when, timeout_s, ...late };
   },
   payload(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, keys<PayloadStep>()(...BASE, "mass_kg", "center_m", "inertia_kgm2"));
@@ -180,11 +192,27 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
     const text = reader.text(fields.text, `${path}.text`, `the comment of ${what}`);
     return text === undefined ? undefined : { type: "comment", text };
   },
+  assign(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<AssignStep>()(...BASE, "variable", "to"));
+    const variable = reader.name(fields.variable, `${path}.variable`, `the variable of ${what}`);
+    if (variable === undefined) return undefined;
+    const type = Object.hasOwn(around.variables, variable) ? around.variables[variable]! : undefined;
+    if (type === undefined)
+      return reader.fault(
+        `${path}.variable`,
+        `${what} gives the variable “${variable}” a value, which the program does not have; it has ${listed(Object.keys(around.variables))}.`,
+      );
+    const to = readExpression(reader, fields.to, `${path}.to`, what, type, around);
+    return to === undefined ? undefined : { type: "assign", variable, to };
+  },
   call(reader, fields, path, what, around) {
-    reader.onlyKeys(fields, path, what, keys<CallStep>()(...BASE, "routine"));
+    reader.onlyKeys(fields, path, what, keys<CallStep>()(...BASE, "routine", "arguments"));
     const routine = reader.name(fields.routine, `${path}.routine`, `the routine of ${what}`);
     if (routine === undefined) return undefined;
-    if (around.routines.has(routine)) return { type: "call", routine };
+    if (around.routines.has(routine)) {
+      const given = readArguments(reader, fields.arguments, `${path}.arguments`, what, routine, around);
+      return given === undefined ? { type: "call", routine } : { type: "call", routine, arguments: given };
+    }
     return reader.fault(
       `${path}.routine`,
       `${what} calls the routine “${routine}”, which the program does not have; it has ${listed(around.routines)}.`,
@@ -202,9 +230,15 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
       `${what} repeats a whole number of times from 0 to ${MAX_TIMES}, or "forever"; here it is ${reader.shown(times)}.`,
     );
   },
+  while(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<WhileStep>()(...BASE, "when", "steps"));
+    const when = readPredicate(reader, fields.when, `${path}.when`, what, around);
+    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around));
+    return when === undefined ? undefined : { type: "while", when, steps };
+  },
   if(reader, fields, path, what, around) {
     reader.onlyKeys(fields, path, what, keys<IfStep>()(...BASE, "when", "then", "else"));
-    const when = readCondition(reader, fields.when, `${path}.when`, what);
+    const when = readPredicate(reader, fields.when, `${path}.when`, what, around);
     const then = readSteps(reader, fields.then, `${path}.then`, `the list of steps of ${what}`, inside(around));
     const otherwise =
       fields.else === undefined
@@ -234,5 +268,31 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
     return { type: "pallet", pallet, steps };
   },
 };
+
+/** A value for every parameter of the routine, no more and no less; undefined when it has none. */
+function readArguments(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  what: string,
+  routine: string,
+  around: ProgramScope,
+): Readonly<Record<string, Expression>> | undefined {
+  const wanted = Object.hasOwn(around.parameters, routine) ? around.parameters[routine]! : {};
+  const names = Object.keys(wanted);
+  if (value === undefined && names.length === 0) return undefined;
+  const fields = value === undefined ? {} : reader.object(value, path, `the arguments of ${what}`);
+  if (fields === undefined) return undefined;
+  for (const name of Object.keys(fields))
+    if (!Object.hasOwn(wanted, name))
+      reader.fault(`${path}.${name}`, `${what} gives “${routine}” a “${name}”; it takes ${listed(names)}.`);
+  const given = names.flatMap(name => {
+    if (fields[name] === undefined)
+      return reader.fault(path, `${what} calls “${routine}” without a value for “${name}”.`) ?? [];
+    const read = readExpression(reader, fields[name], `${path}.${name}`, what, wanted[name]!, around);
+    return read === undefined ? [] : [[name, read] as const];
+  });
+  return names.length === 0 ? undefined : Object.fromEntries(given);
+}
 
 const listed = (names: Iterable<string>): string => [...names].join(", ") || "none";

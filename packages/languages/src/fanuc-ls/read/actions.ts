@@ -12,8 +12,9 @@ export interface Motion {
   readonly path: "J" | "L" | "C";
   readonly via?: Point;
   readonly goal: Point;
-  readonly speed: Expression;
-  readonly unit: "%" | "mm/sec" | "cm/min" | "inch/min" | "sec" | "msec";
+  /** Undefined is the speed that the controller holds for it: as fast as it can, or that of the weld. */
+  readonly speed: Expression | undefined;
+  readonly unit: "%" | "mm/sec" | "cm/min" | "inch/min" | "deg/sec" | "sec" | "msec" | "max_speed" | "weld_speed";
   /** Share of the deceleration that is passed, 0 … 100; undefined stands. */
   readonly cnt?: Expression;
   readonly acceleration?: Expression;
@@ -22,8 +23,11 @@ export interface Motion {
   readonly toolOffset?: { readonly register: Expression | undefined };
   /** The robot keeps its place on what a second group carries while that moves. */
   readonly coordinated: boolean;
-  /** A label of the search that it is. */
+  /** A label of the search that it is: taken when the condition does not come, or when it does (SkipJump). */
   readonly skip?: number;
+  readonly jumpsWhenMet?: boolean;
+  /** INC: the position is how far the robot goes from where it stands. */
+  readonly incremental?: boolean;
 }
 
 /** What an instruction does, apart from loops, decisions, calls and assignments to registers. */
@@ -51,8 +55,14 @@ export type Action =
       readonly spelling: string;
     }
   | { readonly kind: "timeout"; readonly value: Expression }
+  | { readonly kind: "flag"; readonly word: string; readonly number: Expression; readonly value: Expression }
+  | { readonly kind: "move-register"; readonly number: Expression; readonly value: Expression }
   | { readonly kind: "jump"; readonly label: number }
+  /** A jump to a label whose number is worked out. */
+  | { readonly kind: "jump-to"; readonly label: Expression }
   | { readonly kind: "label"; readonly label: number }
+  /** Waits for a person to go on. */
+  | { readonly kind: "pause" }
   | { readonly kind: "nothing" };
 
 export type Actions = ReadonlyMap<Statement, Action>;

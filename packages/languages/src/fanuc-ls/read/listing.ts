@@ -1,5 +1,7 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError, plainText } from "../../parser/index.ts";
+import { inEnglish, isGermanHead } from "./german.ts";
+import { RegisterReader, VARIABLE_HEAD, type RegisterValues } from "./register-files.ts";
 
 /** Three flags and the whole turns of axes 1, 4 and 6. */
 export interface Config {
@@ -9,8 +11,11 @@ export interface Config {
   readonly turns: readonly [number, number, number];
 }
 export interface PositionRecord extends TextPlace {
-  readonly uf: number;
-  readonly ut: number;
+  /** Numbers of the frame and the tool; undefined for F: those that are in use. */
+  readonly uf: number | undefined;
+  readonly ut: number | undefined;
+  /** Taught with a tool that stands in the cell while the robot moves the part (RX, RY …). */
+  readonly remote: boolean;
   /** X, Y, Z, W, P, R or J1 … J6; undefined where it was never taught. */
   readonly values: readonly number[] | undefined;
   readonly joints: boolean;
@@ -46,7 +51,7 @@ const blank = (text: string): string => " ".repeat(text.length);
 export function readListings(
   text: string,
   label: (word: string, number: number, name: string) => void,
-): ListedProgram[] {
+): { readonly programs: readonly ListedProgram[]; readonly registers: RegisterValues } {
   const lines = plainText(text).split(/\r\n|\n|\r/);
   const programs: ListedProgram[] = [];
   let section = "";
@@ -57,6 +62,9 @@ export function readListings(
   let code: string[] = [];
   let positions = new Map<number, PositionRecord>();
   let record: RecordReader | undefined;
+  let isGerman = false;
+  const registers = new RegisterReader();
+  let inRegisters = false;
   for (const [i, raw] of lines.entries()) {
     const line = i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw;
     const place = { line: i + 1, column: 1 + (/\S/.exec(line)?.index ?? 0) };
@@ -70,6 +78,9 @@ export function readListings(
         const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
         if (found === undefined) throw new TextError(place, "the name of the program", "The program has no name.");
         name = found;
+        isGerman = false;
+        inRegisters = false;
+        registers.close();
         comment = "";
         code = [];
         positions = new Map();
@@ -85,7 +96,7 @@ export function readListings(
     }
     switch (section) {
       case "MN":
-        code.push(statementOf(line, i + 1, label));
+        code.push(statementOf(line, i + 1, label, isGerman));
         break;
       case "POS": {
         code.push("");
@@ -99,14 +110,19 @@ export function readListings(
       }
       case "ATTR": {
         code.push("");
-        const found = /^\s*COMMENT\s*=\s*"([^"]*)"/i.exec(line)?.[1];
+        isGerman ||= isGermanHead(line);
+        const found = /^\s*(?:COMMENT|KOMMENTAR)\s*=\s*"([^"]*)"/i.exec(line)?.[1];
         if (found !== undefined) comment = found.trim();
         break;
       }
       default:
         code.push("");
-        if (section === "" && line.trim() !== "")
-          throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
+        if (section !== "") break;
+        if (VARIABLE_HEAD.test(line)) {
+          registers.head(line);
+          inRegisters = true;
+        } else if (inRegisters) registers.take(line);
+        else if (line.trim() !== "") throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
     }
   }
   if (section !== "" || programs.length === 0)
@@ -115,16 +131,26 @@ export function readListings(
       section === "" ? "/PROG" : "/END",
       section === "" ? "The text holds no program." : `The program ${name} has no end.`,
     );
-  return programs;
+  registers.close();
+  return { programs, registers: registers.registers };
 }
 
+/** The line below the statements of a point's logic, which are numbered on their own. */
+const LOGIC_END = /^\s*-{3,}\s*;?\s*$/;
+
 /** A numbered line without its number, its end and the names that people gave to registers. */
-function statementOf(line: string, at: number, label: (word: string, number: number, name: string) => void): string {
+function statementOf(
+  line: string,
+  at: number,
+  label: (word: string, number: number, name: string) => void,
+  isGerman: boolean,
+): string {
+  if (LOGIC_END.test(line)) return "";
   const number = NUMBERED.exec(line)?.[0] ?? "";
   if (number === "" && line.trim() !== "" && !/^\s/.test(line))
     throw new TextError({ line: at, column: 1 }, "the number of the line and a colon", "The line has no number.");
-  let rest = line
-    .slice(number.length)
+  const body = line.slice(number.length);
+  let rest = (isGerman ? inEnglish(body) : body)
     .replace(/;\s*(?:(?:!|--|\/\/).*)?$/, end => blank(end))
     .replaceAll(MESSAGE, " ")
     .replaceAll(REMARK, " ");
@@ -139,7 +165,12 @@ function statementOf(line: string, at: number, label: (word: string, number: num
     const close = rest.lastIndexOf("]");
     if (close > open)
       rest = `${rest.slice(0, open)}${MESSAGE}${rest.slice(open + 1, close)}${MESSAGE}${rest.slice(close + 1)}`;
-  } else if (rest.includes(":")) {
+  } else {
+    // Texts are given to programs that are called; positions of group 1 are those of the arm.
+    if (/\bCALL\b/i.test(rest)) rest = rest.replace(/'([^']*)'/g, `${MESSAGE}$1${MESSAGE}`);
+    if (rest.includes("[GP1:")) rest = rest.replaceAll("[GP1:", "[    ");
+  }
+  if (rest.includes(":") && !rest.includes(REMARK) && !/^\s*MESSAGE\b/i.test(rest)) {
     for (const [, word, index, name] of rest.matchAll(/([A-Za-z]+)\[\s*([0-9]+)\s*(?:,[^\]:]*)?:([^\]]*)\]/g))
       label(word!, Number(index), name!.trim());
     rest = rest.replace(LABEL, (whole, open: string) => open + blank(whole.slice(open.length)));
@@ -147,8 +178,8 @@ function statementOf(line: string, at: number, label: (word: string, number: num
   return blank(number) + rest;
 }
 
-const CONFIG = /CONFIG\s*:\s*'\s*([FN])\s*([UD])\s*([TB])\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*'/i;
-const FIELD = /\b(X|Y|Z|W|P|R|J[1-9]|E[1-9])\s*=\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)|\*+)\s*(mm|deg)/gi;
+const CONFIG = /[CK]ONFIG\s*:\s*'\s*([FN])\s*([UD])\s*([TB])\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*'/i;
+const FIELD = /\b(R?[XYZWPR]|J[1-9]|E[1-9])\s*=\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)|\*+)\s*(mm|deg)/gi;
 const CARTESIAN = ["X", "Y", "Z", "W", "P", "R"];
 const JOINTS = ["J1", "J2", "J3", "J4", "J5", "J6"];
 
@@ -157,8 +188,9 @@ class RecordReader {
   readonly number: number;
   private readonly place: TextPlace;
   private readonly fields = new Map<string, number | undefined>();
-  private uf = 0;
-  private ut = 0;
+  private uf: number | undefined = 0;
+  private ut: number | undefined = 0;
+  private remote = false;
   private config: Config | undefined;
   private group = 1;
   private others = "";
@@ -181,10 +213,10 @@ class RecordReader {
     if (this.group === 1) {
       const frames = /UF\s*:\s*([0-9F]+)\s*,\s*UT\s*:\s*([0-9F]+)/i.exec(line);
       if (frames !== null) {
-        this.uf = Number(frames[1]);
-        this.ut = Number(frames[2]);
+        this.uf = numbered(frames[1]!);
+        this.ut = numbered(frames[2]!);
       }
-      if (/CONFIG/i.test(line)) {
+      if (/[CK]ONFIG/i.test(line)) {
         const found = CONFIG.exec(line);
         if (found === null)
           throw new TextError(place, "CONFIG : 'N U T, 0, 0, 0'", "The configuration is not understood.");
@@ -195,8 +227,7 @@ class RecordReader {
           turns: [Number(found[4]), Number(found[5]), Number(found[6])],
         };
       }
-      for (const [, name, value] of line.matchAll(FIELD))
-        this.fields.set(name!.toUpperCase(), value!.startsWith("*") ? undefined : Number(value));
+      for (const [, name, value] of line.matchAll(FIELD)) this.field(name!.toUpperCase(), value!);
     }
     if (this.group > 1 || /\bE[1-9]\s*=/.test(line))
       for (const [, name, value] of line.matchAll(FIELD))
@@ -208,16 +239,34 @@ class RecordReader {
     return false;
   }
 
+  /** RX, RY … RR are fields of a position with a remote tool; J7 and later belong to further axes. */
+  private field(name: string, value: string): void {
+    if (name.length === 2 && name.startsWith("R")) this.remote = true;
+    const key = name.length === 2 && name.startsWith("R") ? name.slice(1) : name;
+    this.fields.set(key, value.startsWith("*") ? undefined : Number(value));
+  }
+
   done(): PositionRecord {
-    const { fields, uf, ut, config, place, others } = this;
+    const { fields, uf, ut, config, place, others, remote } = this;
     const joints = fields.has("J1");
     const names = joints ? JOINTS : CARTESIAN;
-    if (!names.every(name => fields.has(name)))
+    // A position of further groups alone says nothing of the arm.
+    if (fields.size > 0 && !names.every(name => fields.has(name)))
       throw new TextError(place, names.join(", "), `The position P[${this.number}] lacks one of ${names.join(", ")}.`);
-    if (!Number.isInteger(uf) || !Number.isInteger(ut))
-      throw new TextError(place, "UF : 0, UT : 1", `The position P[${this.number}] has no numbers of frame and tool.`);
     const values = names.map(name => fields.get(name));
     const known = values.filter(value => value !== undefined);
-    return { uf, ut, joints, config, values: known.length === names.length ? known : undefined, others, ...place };
+    return {
+      uf,
+      ut,
+      joints,
+      config,
+      remote,
+      values: known.length === names.length ? known : undefined,
+      others,
+      ...place,
+    };
   }
 }
+
+/** F stands for the frame or the tool that is in use. */
+const numbered = (text: string): number | undefined => (/^[0-9]+$/.test(text) ? Number(text) : undefined);

@@ -3,6 +3,7 @@ import { TextError, textFault } from "../../parser/index.ts";
 import type { Block, Expression, Routine, Statement } from "../../parser/structured/index.ts";
 import type { Action, Fate } from "./actions.ts";
 import { readListings, type PositionRecord } from "./listing.ts";
+import type { RegisterValues } from "./register-files.ts";
 import { readStatements } from "./statements.ts";
 
 export interface Source {
@@ -17,6 +18,8 @@ export interface Source {
   /** What people call lines and registers, by "do5" and the like. */
   readonly labels: ReadonlyMap<string, string>;
   readonly spelling: ReadonlyMap<string, string>;
+  /** Values of registers that files beside the listings hold. */
+  readonly registers: RegisterValues;
   /** What is kept and shown but not executed; nothing of it moves the robot. */
   readonly kept: readonly TextFault[];
   /** Jumps that are neither a loop without end nor a decision. */
@@ -30,7 +33,7 @@ export type SourceAnswer =
 export function readSource(text: string): SourceAnswer {
   const labels = new Map<string, string>();
   try {
-    const programs = readListings(text, (word, number, name) => {
+    const { programs, registers } = readListings(text, (word, number, name) => {
       const key = `${word.toLowerCase()}${number}`;
       if (name !== "" && !labels.has(key)) labels.set(key, name);
     });
@@ -71,6 +74,7 @@ export function readSource(text: string): SourceAnswer {
         fates,
         labels,
         spelling,
+        registers,
         kept: kept.toSorted((a, b) => a.line - b.line),
         hasJumps,
       },
@@ -114,6 +118,8 @@ class Jumps {
   private readonly fates: Map<Statement, Fate>;
   /** How often a label is jumped to. */
   private readonly uses = new Map<number, number>();
+  /** A jump goes to a label that is worked out: every label may be the one. */
+  private anywhere = false;
 
   constructor(block: Block, actions: Map<Statement, Action>, fates: Map<Statement, Fate>) {
     this.block = block;
@@ -124,7 +130,7 @@ class Jumps {
   }
 
   structured(): Block {
-    return this.shape(this.block);
+    return this.anywhere ? this.block : this.shape(this.block);
   }
 
   private actionOf(statement: Statement | undefined): Action | undefined {
@@ -138,7 +144,9 @@ class Jumps {
   private count(block: Block): void {
     for (const statement of block) {
       const action = this.actionOf(statement);
-      if (action?.kind === "jump") this.use(action.label);
+      const label = leadsTo(action);
+      if (label !== undefined) this.use(label);
+      if (action?.kind === "jump-to") this.anywhere = true;
       for (const inner of inside(statement)) this.count(inner);
     }
   }
@@ -172,7 +180,7 @@ class Jumps {
                 this.actionOf(each)?.kind !== "label" &&
                 this.actionOf(each)?.kind !== "message",
             );
-    return then?.kind === "halt" ? "abort" : "elsewhere";
+    return then?.kind === "halt" || this.actionOf(then)?.kind === "pause" ? "abort" : "elsewhere";
   }
 
   private shape(block: Block): Block {
@@ -181,7 +189,7 @@ class Jumps {
       const action = this.actionOf(statement);
       if (action?.kind === "jump" && this.uses.get(action.label) === 1) {
         const from = this.labelIn(out, action.label);
-        if (from >= 0) {
+        if (from >= 0 && this.isClosed(out.slice(from + 1))) {
           const { line, column } = out[from]!;
           const body = out.splice(from).slice(1);
           out.push({ kind: "while", when: { kind: "truth", value: true, line, column }, body, line, column });
@@ -191,7 +199,7 @@ class Jumps {
       if (action?.kind === "label" && this.uses.get(action.label) === 1) {
         const from = out.findIndex(each => this.skips(each, action.label));
         const start = out[from];
-        if (start?.kind === "if") {
+        if (start?.kind === "if" && this.isClosed(out.slice(from + 1))) {
           const body = out.splice(from).slice(1);
           const when: Expression = {
             kind: "unary",
@@ -207,6 +215,23 @@ class Jumps {
       out.push(this.inner(statement));
     }
     return out;
+  }
+
+  /** Whether no jump from outside leads to a label among these statements, which then can be the body of a block. */
+  private isClosed(body: Block): boolean {
+    const labels = new Set<number>();
+    const within = new Map<number, number>();
+    const look = (block: Block): void => {
+      for (const statement of block) {
+        const action = this.actionOf(statement);
+        if (action?.kind === "label") labels.add(action.label);
+        const to = leadsTo(action);
+        if (to !== undefined) within.set(to, (within.get(to) ?? 0) + 1);
+        for (const inner of inside(statement)) look(inner);
+      }
+    };
+    look(body);
+    return [...labels].every(label => (within.get(label) ?? 0) === (this.uses.get(label) ?? 0));
   }
 
   private labelIn(block: Block, label: number): number {
@@ -242,9 +267,26 @@ class Jumps {
   }
 }
 
+/** The label that a jump goes to; a search or a wait may go on at its label too. */
+function leadsTo(action: Action | undefined): number | undefined {
+  switch (action?.kind) {
+    case "jump":
+      return action.label;
+    case "motion":
+      return action.skip;
+    case "wait-for":
+      return action.label;
+    default:
+      return undefined;
+  }
+}
+
 const jumps = (block: Block, actions: ReadonlyMap<Statement, Action>): boolean =>
   block.some(
-    statement => actions.get(statement)?.kind === "jump" || inside(statement).some(each => jumps(each, actions)),
+    statement =>
+      actions.get(statement)?.kind === "jump" ||
+      actions.get(statement)?.kind === "jump-to" ||
+      inside(statement).some(each => jumps(each, actions)),
   );
 
 function inside(statement: Statement): readonly Block[] {

@@ -18,6 +18,8 @@ const LEXICON: Lexicon = {
   quotes: MESSAGE,
   doubled: false,
   lineEnds: true,
+  // A system variable with its parts is one word: $MCR.$GENOVERRIDE, $PARAM_GROUP[2].$LOWERLIMS[1].
+  word: /\$[A-Za-z_]\w*(?:\[[^\]\r\n]{0,40}\])?(?:\.\$?[A-Za-z_]\w*(?:\[[^\]\r\n]{0,40}\])?)*/y,
   signs: [
     "<>",
     "<=",
@@ -90,7 +92,22 @@ const RULES: ExpressionRules = {
     throw cursor.unexpected("an operator");
   },
 };
-const LINES = new Set(["do", "ro", "ao", "uo", "so", "go", "di", "ri", "ai", "gi"]);
+const LINES = new Set(["do", "ro", "ao", "uo", "so", "go", "di", "ri", "ai", "gi", "f", "m"]);
+/** Functions of one register or value, written with square brackets. */
+export const FUNCTIONS: ReadonlySet<string> = new Set([
+  "sin",
+  "cos",
+  "tan",
+  "asin",
+  "acos",
+  "atan",
+  "sqrt",
+  "abs",
+  "round",
+  "trunc",
+  "ln",
+  "exp",
+]);
 /** Statements of which nothing shows in the motion. */
 const SILENT = new Set([
   "timer",
@@ -112,6 +129,30 @@ const SILENT = new Set([
   "joint_max_speed",
   "linear_max_speed",
 ]);
+/** Statements that are kept and named: what they do does not move the robot, or is no matter of a plan. */
+const SHOWN: Readonly<Record<string, string>> = {
+  softfloat: "the arm gives way to a push",
+  soft: "the arm gives way to a push",
+  run: "another program is started beside this one",
+  vision: "a camera looks for parts",
+  call_vision: "a camera looks for parts",
+  force: "the force sensor is set",
+  diag: "the controller notes how it is",
+  print: "a text is printed",
+  getat: "the time is noted",
+  strlen: "a text is measured",
+  lockreg: "registers are kept from other programs",
+  touch: "the touch sensor is switched",
+  track: "the seam is tracked by the arc",
+  palletizing: "the pallet's own record is set",
+  cycle: "a count of the controller is set",
+  str_speed: "a speed is noted",
+  send: "a message goes to another device",
+  receive: "a message of another device is read",
+  spot: "a spot gun is moved and closed",
+  gun: "a spot gun is set",
+  backup: "a copy of the controller is made",
+};
 
 /** Statements of one program as a tree, jumps still as they stand. */
 export interface Reading {
@@ -129,6 +170,8 @@ class StatementReader extends RecoveringReader {
   private readonly kept: TextFault[] = [];
   /** The line of the statement has been left already. */
   private isOver = false;
+  /** What is done at the end of the motion that was read last. */
+  private behind: Statement | undefined;
 
   constructor(code: string) {
     super(code, LEXICON);
@@ -167,6 +210,9 @@ class StatementReader extends RecoveringReader {
           return read;
         });
         if (statement !== undefined) statements.push(statement);
+        const { behind } = this;
+        this.behind = undefined;
+        if (statement !== undefined && behind !== undefined) statements.push(behind);
       }
       return statements;
     });
@@ -180,6 +226,17 @@ class StatementReader extends RecoveringReader {
 
   private value(): Expression {
     return readExpression(this.cursor, RULES);
+  }
+
+  /** An argument of a call: a value, or a text, which no motion reads. */
+  private argument(): Expression {
+    const { cursor } = this;
+    const at = cursor.here;
+    if (cursor.isAt("text")) {
+      cursor.advance();
+      return { kind: "number", value: 0, ...at };
+    }
+    return this.value();
   }
   private indexed(): Expression {
     const { cursor } = this;
@@ -197,19 +254,29 @@ class StatementReader extends RecoveringReader {
       throw new TextError(at, "the number of a label", "Labels that are worked out are not executed here.");
     return number.value;
   }
+  private jump(at: TextPlace): Statement {
+    this.cursor.expect("lbl");
+    const number = this.indexed();
+    return this.act(
+      number.kind === "number" ? { kind: "jump", label: number.value } : { kind: "jump-to", label: number },
+      at,
+    );
+  }
 
   private statement(): Statement {
     const { cursor } = this;
     const at = cursor.here;
     const word = cursor.next;
-    if (cursor.accept("$")) return this.system(at);
+    if (cursor.isAt("word") && word.startsWith("$")) return this.system(at);
     if (!cursor.isAt("word")) throw cursor.unexpected("a statement");
     const { second } = cursor;
     if ((word === "j" || word === "l" || word === "c") && (second === "p" || second === "pr")) {
       cursor.advance();
       return this.act(this.motion(word), at);
     }
+    if (second === "[" && (word === "f" || word === "m")) return this.flag(word, at);
     if (second === "[" && LINES.has(word)) return this.set(word, at);
+    if (second === "[" && word === "p") return this.point_(at);
     cursor.advance();
     switch (word) {
       case "r":
@@ -259,14 +326,15 @@ class StatementReader extends RecoveringReader {
         return this.act({ kind: "label", label: number.value }, at);
       }
       case "jmp":
-        return this.act({ kind: "jump", label: this.label() }, at);
+        return this.jump(at);
       case "call":
         return this.call(at);
       case "end":
         return { kind: "return", ...at };
       case "abort":
-      case "pause":
         return { kind: "halt", ...at };
+      case "pause":
+        return this.act({ kind: "pause" }, at);
       case "message": {
         if (!cursor.isAt("text")) throw cursor.unexpected("[text]");
         const text = cursor.raw;
@@ -274,6 +342,7 @@ class StatementReader extends RecoveringReader {
         return this.act({ kind: "message", text }, at);
       }
       default:
+        if (Object.hasOwn(SHOWN, word)) return this.shown(at, SHOWN[word]!);
         if (!SILENT.has(word))
           throw new TextError(
             at,
@@ -312,9 +381,43 @@ class StatementReader extends RecoveringReader {
     return this.act({ kind: "set", word, number, value: truth, pulse }, at);
   }
 
+  /** F[n] and M[n]: flags that the program and those beside it share. */
+  private flag(word: string, at: TextPlace): Statement {
+    const { cursor } = this;
+    cursor.advance();
+    const number = this.indexed();
+    cursor.expect("=");
+    if (!cursor.accept("pulse")) return this.act({ kind: "flag", word, number, value: this.value() }, at);
+    return this.shown(at, "a flag is set for a moment");
+  }
+
+  /** P[n]=…: the position of this program is given another value. */
+  private point_(at: TextPlace): Statement {
+    const { cursor } = this;
+    cursor.advance();
+    cursor.expect("[");
+    const number = this.value();
+    if (cursor.accept(","))
+      throw new TextError(at, "PR[n,1]", "A part of a taught position is not given a value here.");
+    cursor.expect("]");
+    cursor.expect("=");
+    return this.act({ kind: "move-register", number, value: this.value() }, at);
+  }
+
+  /** Whether GP2: or the like stands before the number of a register: it is the further axes'. */
+  private otherGroup(): boolean {
+    const { cursor } = this;
+    const group = /^gp([0-9])$/.exec(cursor.next)?.[1];
+    if (group === undefined) return false;
+    cursor.advance();
+    cursor.expect(":");
+    return group !== "1";
+  }
+
   private assignment(word: "r" | "pr", at: TextPlace): Statement {
     const { cursor } = this;
     cursor.expect("[");
+    if (word === "pr" && this.otherGroup()) return this.shown(at, "a position of further axes is given a value");
     const indices = [this.value()];
     while (cursor.accept(",")) indices.push(this.value());
     cursor.expect("]");
@@ -335,11 +438,11 @@ class StatementReader extends RecoveringReader {
 
   private system(at: TextPlace): Statement {
     const { cursor } = this;
-    const name = cursor.name("the name of a system variable");
-    while (!cursor.isAt("line-end") && !cursor.done && cursor.next !== "=") cursor.advance();
+    const name = cursor.take();
     cursor.expect("=");
     const value = this.value();
-    return this.act(name === "waittmout" ? { kind: "timeout", value } : { kind: "nothing" }, at);
+    if (name === "$waittmout") return this.act({ kind: "timeout", value }, at);
+    return this.shown(at, "a system variable is given a value");
   }
 
   private wait(at: TextPlace): Statement {
@@ -431,12 +534,37 @@ class StatementReader extends RecoveringReader {
     const name = cursor.name("the name of a program");
     const args: Argument[] = [];
     if (cursor.accept("(")) {
-      while (!cursor.accept(")")) {
-        if (args.length > 0) cursor.expect(",");
-        args.push({ value: this.value(), ...at });
+      for (let first = true; !cursor.accept(")"); first = false) {
+        if (!first) cursor.expect(",");
+        // VW's macros are called with words: they are for people.
+        if (this.isWording()) {
+          this.passArgument();
+          args.push({ value: { kind: "number", value: 0, ...at }, ...at });
+        } else args.push({ value: this.argument(), ...at });
       }
     }
     return { kind: "do", name, args, ...at };
+  }
+
+  /** Whether an argument is a text for people: a word that is no register, or nothing at all. */
+  private isWording(): boolean {
+    const { cursor } = this;
+    if (cursor.next === "," || cursor.next === ")") return true;
+    return (
+      cursor.isAt("word") &&
+      cursor.second !== "[" &&
+      cursor.next !== "on" &&
+      cursor.next !== "off" &&
+      cursor.next !== "!"
+    );
+  }
+  private passArgument(): void {
+    const { cursor } = this;
+    for (let depth = 0; !cursor.isAt("line-end") && !cursor.done; cursor.advance()) {
+      if (cursor.next === "(") depth++;
+      if (depth === 0 && (cursor.next === "," || cursor.next === ")")) return;
+      if (cursor.next === ")") depth--;
+    }
   }
 
   // --- motions ----------------------------------------------------------------------------------------------------
@@ -467,15 +595,20 @@ class StatementReader extends RecoveringReader {
       cursor.accept(":");
       goal = this.point();
     }
-    const speed = this.value();
-    const unit = this.unit(path);
+    const held = cursor.next;
+    const isHeld = held === "max_speed" || held === "weld_speed";
+    const speed = isHeld ? undefined : this.value();
+    if (isHeld) cursor.advance();
+    const unit = isHeld ? held : this.unit(path);
     let cnt: Expression | undefined;
     let acceleration: Expression | undefined;
     let skip: number | undefined;
+    let jumpsWhenMet = false;
+    let incremental = false;
     const at = cursor.here;
     const term = cursor.next;
     if (!cursor.accept("fine")) {
-      cnt = this.suffixed("cnt");
+      cnt = this.suffixed("cnt") ?? this.corner();
       if (cnt === undefined)
         throw new TextError(at, "FINE or CNT", `"${term.toUpperCase()}" says not how the point is reached.`);
     }
@@ -497,11 +630,21 @@ class StatementReader extends RecoveringReader {
         coordinated = true;
         continue;
       }
-      if (cursor.accept("skip")) {
+      if (cursor.next === "skip" || cursor.next === "skipjump") {
+        jumpsWhenMet = cursor.take() === "skipjump";
         cursor.expect(",");
         skip = this.label();
         continue;
       }
+      if (cursor.next === "tb" || cursor.next === "ta" || cursor.next === "db") {
+        this.atPoint(at);
+        break;
+      }
+      if (cursor.accept("inc")) {
+        incremental = true;
+        continue;
+      }
+      if (this.passes()) continue;
       if (
         cursor.accept("pth") ||
         cursor.accept("wjnt") ||
@@ -525,7 +668,58 @@ class StatementReader extends RecoveringReader {
       ...(toolOffset === undefined ? {} : { toolOffset }),
       coordinated,
       ...(skip === undefined ? {} : { skip }),
+      ...(jumpsWhenMet ? { jumpsWhenMet } : {}),
+      ...(incremental ? { incremental } : {}),
     };
+  }
+
+  /**
+   * TB, TA or DB: what is done at the point, so long or so far before it or after. It is executed when the point is
+   * reached, and said where that is not the same.
+   */
+  private atPoint(at: TextPlace): void {
+    const { cursor } = this;
+    const word = cursor.take();
+    const many = this.value();
+    const unit = cursor.isAt("word") ? cursor.take() : "";
+    cursor.accept(",");
+    if (many.kind !== "number" || many.value !== 0)
+      this.kept.push(
+        textFault(
+          at,
+          "an action at the point itself",
+          `${word.toUpperCase()}${many.kind === "number" ? ` ${many.value}${unit}` : ""}: what is done about the point is done when it is reached.`,
+        ),
+      );
+    // P-SPS: the statements below, up to the line of dashes.
+    if (cursor.next === "p" && cursor.second === "-") {
+      while (!cursor.isAt("line-end") && !cursor.done) cursor.advance();
+      return;
+    }
+    if (cursor.accept("point_logic")) return;
+    this.behind = this.statement();
+  }
+
+  /** Options of which the tool's path and place know nothing. */
+  private passes(): boolean {
+    const { cursor } = this;
+    const word = cursor.next;
+    if (/^(?:ev|ind\.ev|fd|sv)[0-9]*$/.test(word) || word === "increase" || word === "process_speed") {
+      cursor.advance();
+      if (cursor.accept("r")) this.indexed();
+      else if (cursor.isAt("number")) cursor.advance();
+      cursor.accept("%");
+      return true;
+    }
+    return false;
+  }
+
+  /** CR10, a corner by its radius in mm, is read as CNT: the share of the slowing down that is passed is not known. */
+  private corner(): Expression | undefined {
+    const at = this.cursor.here;
+    const radius = this.suffixed("cr") ?? this.suffixed("cd");
+    if (radius === undefined) return undefined;
+    throw new TextError(at, "FINE or CNT", "Corners by radius (CR, CD) are not executed here.");
   }
 
   private offset(): { readonly register: Expression | undefined } {
@@ -562,6 +756,12 @@ class StatementReader extends RecoveringReader {
       cursor.expect("/");
       cursor.expect(word === "mm" ? "sec" : "min");
       return word === "mm" ? "mm/sec" : word === "cm" ? "cm/min" : "inch/min";
+    }
+    if (path !== "J" && word === "deg") {
+      cursor.advance();
+      cursor.expect("/");
+      cursor.expect("sec");
+      return "deg/sec";
     }
     throw cursor.unexpected(path === "J" ? "% or sec" : "mm/sec, cm/min, inch/min or sec");
   }

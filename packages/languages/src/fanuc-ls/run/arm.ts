@@ -15,6 +15,8 @@ export class ControllerArm {
   private readonly cellFromController: Matrix;
   joints_rad: readonly number[] | undefined;
   private known: Matrix | undefined;
+  /** The robot went where nobody here knows. */
+  isLost = false;
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
@@ -37,7 +39,13 @@ export class ControllerArm {
     ));
   }
 
+  /** From here on nobody knows where the robot stands. */
+  lose(): void {
+    this.isLost = true;
+  }
+
   atShown(shown_deg: readonly number[]): readonly number[] {
+    this.isLost = false;
     const own = this.axes.radians(shown_deg);
     this.joints_rad = own;
     this.known = undefined;
@@ -63,6 +71,7 @@ export class ControllerArm {
     readonly fits: boolean;
   } {
     const { robot, joints_rad: near } = this;
+    this.isLost = false;
     const reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
     this.known = flange;
     if (reach.kind !== "reached") {
@@ -97,8 +106,9 @@ export class ControllerArm {
   }
 
   remember(): () => void {
-    const { joints_rad, known } = this;
+    const { joints_rad, known, isLost } = this;
     return () => {
+      this.isLost = isLost;
       this.joints_rad = joints_rad;
       this.known = known;
     };

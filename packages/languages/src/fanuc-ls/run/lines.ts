@@ -15,6 +15,9 @@ const KINDS: Readonly<Record<string, SignalLine["kind"]>> = {
   gi: "analogue-in",
   ao: "analogue-out",
   go: "analogue-out",
+  // Flags and markers that programs share: set from outside as lines are.
+  f: "digital-in",
+  m: "digital-in",
 };
 /** Lines that the neutral program has numbers for; others go by their names. */
 const NUMBERED = new Set(["di", "do", "ai", "ao"]);

@@ -1,7 +1,6 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
-import { TextError, rememberMap, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, type DeclaredCell, type Notices } from "../../parser/index.ts";
 import {
-  BlockMachine,
   type Argument,
   type Block,
   type Do,
@@ -14,43 +13,29 @@ import {
 import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
 import type { Source } from "../read/source.ts";
-import { ControllerArm } from "./arm.ts";
-import { Lines, isLineWord, kindOfLine } from "./lines.ts";
-import { fromSix, inverted, moved, times, toPose, toSix, type Matrix } from "./matrix.ts";
-import { speedOf } from "./pace.ts";
-import { Setups } from "./setups.ts";
-import { asNumber, binary, isSix, type Value } from "./values.ts";
+import { kindOfLine } from "./lines.ts";
+import { fromSix, inverted, moved, times, toPose, type Matrix } from "./matrix.ts";
+import { FASTEST, planned, speedOf } from "./pace.ts";
+import { RegisterMachine } from "./registers.ts";
+import { isJoints, isKnown, isSix, type Value } from "./values.ts";
 
 const GRIPPER = "ro1";
 /** $WAITTMOUT counts hundredths of a second; 30 s when nobody has set it. */
 const TIMEOUT = 3000;
 
-/** A position register that is the difference of two others: how far a place is from the first. */
-interface Difference {
-  readonly present: string;
-  readonly first: string;
-}
-
 /** Executes TP statement by statement. */
-export class Machine extends BlockMachine<Value> {
-  readonly arm: ControllerArm;
-  readonly declared: DeclaredCell;
+export class Machine extends RegisterMachine {
   /** Registers that hold how far the place of a pallet is off, while the pallet is read as one. */
   readonly places = new Set<string>();
-  private readonly source: Source;
-  private readonly lines: Lines;
-  private readonly setups: Setups;
   private readonly writesDown: boolean;
-  private readonly differences = new Map<string, Difference>();
   private timeout = TIMEOUT;
   private skip: Expression | undefined;
   private offset: string | undefined;
   private toolOffset: string | undefined;
   /** Where the further axes stood at the last taught position. */
   private others: string | undefined;
-  /** Arguments of the calls under way, the innermost last. */
-  private readonly given: (readonly Value[])[] = [];
   private jump: number | undefined;
+  private jumpFrom: TextPlace = { line: 1, column: 1 };
 
   /** Frames and tools that were used and are set up nowhere in the text. */
   get assumed(): ReadonlyMap<string, TextPlace> {
@@ -58,6 +43,8 @@ export class Machine extends BlockMachine<Value> {
   }
 
   /**
+   * @param notices     takes what only the controller knows, as registers that no file holds; without, such a thing is
+   *   refused.
    * @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks
    *   for.
    */
@@ -68,13 +55,9 @@ export class Machine extends BlockMachine<Value> {
     declared: DeclaredCell,
     signals: Signals | undefined,
     writesDown: boolean,
+    notices?: Notices,
   ) {
-    super(source.routines);
-    this.source = source;
-    this.arm = new ControllerArm(robot, worldFromBase);
-    this.declared = declared;
-    this.lines = new Lines(declared.signals, signals, name => this.spelt(name));
-    this.setups = new Setups(declared, this.arm);
+    super(source, robot, worldFromBase, declared, signals, notices);
     this.writesDown = writesDown;
   }
 
@@ -86,15 +69,6 @@ export class Machine extends BlockMachine<Value> {
   open(): Block {
     this.scopes.push({ routine: this.source.main.name, names: new Map() });
     return this.source.main.body;
-  }
-
-  spelt(name: string): string {
-    const { labels, spelling } = this.source;
-    return (
-      labels.get(name) ??
-      spelling.get(name) ??
-      name.replace(/^([a-z]+)([0-9]+)$/, (_, word: string, number: string) => `${word.toUpperCase()}[${number}]`)
-    );
   }
 
   // --- jumps ------------------------------------------------------------------------------------------------------
@@ -120,116 +94,18 @@ export class Machine extends BlockMachine<Value> {
     return action?.kind === "label" && action.label === label;
   }
 
-  // --- values -----------------------------------------------------------------------------------------------------
-
-  evaluate(expression: Expression): Value {
-    switch (expression.kind) {
-      case "number":
-      case "truth":
-        return expression.value;
-      case "variable": {
-        if (expression.name === "lpos")
-          return [
-            ...toSix(
-              times(
-                times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
-                this.setups.now("utool", expression).matrix,
-              ),
-            ),
-          ];
-        return this.register(expression.name, expression);
-      }
-      case "index": {
-        const { of, indices } = expression;
-        const word = of.kind === "variable" ? of.name : "";
-        const [first, second] = indices.map(index => this.numberOf(index));
-        if (isLineWord(word)) return this.lines.read(this.lines.line(word, first!, expression));
-        if (word === "ar") {
-          const argument = this.given.at(-1)?.[first! - 1];
-          if (argument === undefined)
-            throw new TextError(
-              expression,
-              "an argument of the call",
-              `The program is called without an argument ${first}.`,
-            );
-          return argument;
-        }
-        if (word !== "r" && word !== "pr")
-          throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
-        const value = this.register(`${word}${first}`, expression);
-        if (second === undefined) return value;
-        const part = isSix(value) ? value[second - 1] : undefined;
-        if (part === undefined)
-          throw new TextError(expression, "PR[n,1] … PR[n,6]", `PR[${first}] has no element ${second}.`);
-        return part;
-      }
-      case "unary":
-        return expression.sign === "!" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
-      case "binary":
-        return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
-      default:
-        throw new TextError(expression, "a value of TP", "This is no value of TP.");
-    }
-  }
-
-  private register(name: string, at: TextPlace): Value {
-    const value = this.holder(name).get(name);
-    if (value === undefined)
-      throw new TextError(at, "a register that has a value", `${this.spelt(name)} has no value here.`);
-    return value;
-  }
-
-  /** Where a register is kept: those that loops count in belong to the call. */
-  private holder(name: string): Map<string, Value> {
-    return this.scopes.findLast(({ names }) => names.has(name))?.names ?? this.globals;
-  }
-
-  isTrue(expression: Expression): boolean {
-    const when = this.condition(expression);
-    if (when !== undefined) return this.lines.holds(when);
-    const value = this.evaluate(expression);
-    if (typeof value !== "boolean") throw new TextError(expression, "a condition", "A number is no condition.");
-    return value;
-  }
-  numberOf(expression: Expression): number {
-    return asNumber(this.evaluate(expression), expression);
-  }
-  fromNumber(value: number): Value {
-    return value;
-  }
-
-  protected store(to: Expression, value: Value): void {
-    if (to.kind === "variable") {
-      if (to.name.startsWith("pr") !== isSix(value))
-        throw new TextError(
-          to,
-          to.name.startsWith("pr") ? "a position" : "a number",
-          `${this.spelt(to.name)} cannot hold this.`,
-        );
-      this.holder(to.name).set(to.name, value);
-      return;
-    }
-    if (to.kind !== "index" || to.of.kind !== "variable")
-      throw new TextError(to, "a register", "Only a register can be given a value.");
-    const word = to.of.name;
-    const [number, element] = to.indices.map(index => this.numberOf(index));
-    const name = `${word}${number}`;
-    this.differences.delete(name);
-    if (element === undefined) {
-      this.globals.set(name, value);
-      return;
-    }
-    const before = this.globals.get(name) ?? [0, 0, 0, 0, 0, 0];
-    if (!isSix(before) || !Number.isInteger(element) || element < 1 || element > 6)
-      throw new TextError(to, "PR[n,1] … PR[n,6]", `PR[${number}] has no element ${element}.`);
-    this.globals.set(name, before.with(element - 1, asNumber(value, to)));
-  }
-
   /** The called program reads its arguments as AR[1], AR[2], … */
   override *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
     this.given.push(args.map(({ value }) => (value === undefined ? 0 : this.evaluate(value))));
     try {
-      return yield* super.call(routine, [], at);
+      const flow = yield* super.call(routine, [], at);
+      if (this.jump !== undefined)
+        throw new TextError(
+          this.jumpFrom,
+          `LBL[${this.jump}]`,
+          `A jump goes to the label ${this.jump}, which is not reached from there.`,
+        );
+      return flow;
     } finally {
       this.given.pop();
     }
@@ -248,20 +124,6 @@ export class Machine extends BlockMachine<Value> {
     return yield* super.statement(statement);
   }
 
-  /** PR[n] */
-  private registerName(expression: Expression): string | undefined {
-    return expression.kind === "index" &&
-      expression.of.kind === "variable" &&
-      expression.of.name === "pr" &&
-      expression.indices.length === 1
-      ? `pr${this.numberOf(expression.indices[0]!)}`
-      : undefined;
-  }
-
-  condition(expression: Expression): Condition | undefined {
-    return this.lines.condition(expression, of => this.numberOf(of));
-  }
-
   // --- instructions -----------------------------------------------------------------------------------------------
 
   /* v8 ignore next */
@@ -271,23 +133,144 @@ export class Machine extends BlockMachine<Value> {
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
     const action = this.source.actions.get(statement);
+    if (action === undefined && this.notices !== undefined) {
+      this.notices.notGiven(
+        statement,
+        `The program ${statement.name.toUpperCase()} is not among the files: what it does, motions too, is not executed.`,
+      );
+      this.arm.lose();
+      yield { line: statement.line };
+      return undefined;
+    }
     if (action === undefined)
       throw new TextError(
         statement,
         "the listing of the program that is called",
         `The program ${statement.name.toUpperCase()} is not in the text.`,
       );
-    if (action.kind === "jump") {
-      this.jump = action.label;
+    if (action.kind === "jump" || action.kind === "jump-to") {
+      this.jump = action.kind === "jump" ? action.label : this.numberOf(action.label);
+      this.jumpFrom = statement;
       yield { line: statement.line };
       return "break";
     }
+    if (action.kind === "pause" && this.notices === undefined) {
+      yield this.done(statement, { id: this.stepId(statement), type: "stop" });
+      return "halt";
+    }
+    if (action.kind === "motion" && this.notices !== undefined) return yield* this.lenient(action, statement);
+    if (action.kind === "wait-for" && this.notices !== undefined) return yield* this.waits(action, statement);
     const step = this.step(action, statement);
     yield step === undefined ? { line: statement.line } : this.done(statement, step);
     return undefined;
   }
 
-  private step(action: Exclude<Action, { kind: "jump" }>, at: Do): Step | undefined {
+  /** A motion that goes on at a label, or that is left out and named because only the controller knows where to. */
+  private *lenient(action: Motion, at: Do): Generator<Executed, Flow | undefined> {
+    const missing = this.missing(action, at);
+    if (missing !== undefined) {
+      this.notices!.notGiven(at, `${missing}: the motion is not executed.`);
+      this.arm.lose();
+      yield { line: at.line };
+      return undefined;
+    }
+    yield this.done(at, this.motion(action, at, this.stepId(at)));
+    if (action.skip === undefined || !this.leads(action, at)) return undefined;
+    const met = this.isTrue(this.skip!);
+    if (met !== (action.jumpsWhenMet === true)) return undefined;
+    this.jump = action.skip;
+    this.jumpFrom = at;
+    return "break";
+  }
+
+  /** Whether the program goes on at the label of a search in one of its two ends. */
+  private leads({ jumpsWhenMet }: Motion, at: Do): boolean {
+    const fate = this.source.fates.get(at);
+    return this.skip !== undefined && fate !== "on" && (jumpsWhenMet === true || fate !== "abort");
+  }
+
+  /** What of a motion only the controller knows; undefined where all of it is known. */
+  private missing(motion: Motion, at: Do): string | undefined {
+    for (const point of motion.via === undefined ? [motion.goal] : [motion.via, motion.goal]) {
+      const number = this.numberOf(point.number);
+      const key = `${point.register}${number}`;
+      const value = point.register === "pr" ? this.register(key, at) : this.taught(number, at);
+      const six = isJoints(value) ? value.joints_deg : value;
+      if (isSix(six) && !isKnown(six))
+        return point.register === "p"
+          ? `${key.toUpperCase().replace(/([A-Z]+)/, "$1[")}] was never taught`
+          : `${this.called(key)} is in none of the files`;
+    }
+    for (const [offset, condition] of [
+      [motion.offset, this.offset],
+      [motion.toolOffset, this.toolOffset],
+    ] as const) {
+      if (offset === undefined) continue;
+      const register = offset.register === undefined ? condition : `pr${this.numberOf(offset.register)}`;
+      const six = register === undefined ? undefined : this.register(register, at);
+      if (six === undefined) return "The offset is set in none of the files";
+      if (isSix(six) && !isKnown(six)) return `The offset ${this.called(register!)} is in none of the files`;
+    }
+    if (this.arm.isLost && (motion.incremental === true || motion.path === "C"))
+      return "Where the robot stands before it is not known";
+    return undefined;
+  }
+
+  /** Waits for what the lines say; what is not one line, or goes on at a label, is said. */
+  private *waits(action: Extract<Action, { kind: "wait-for" }>, at: Do): Generator<Executed, Flow | undefined> {
+    const { when, label } = action;
+    const id = this.stepId(at);
+    if (label !== undefined && this.source.fates.get(at) !== "abort") {
+      // The label is taken when the time is over: looked at in ten parts of it.
+      for (let part = 0; part < 10 && !this.isTrue(when); part++)
+        yield this.done(at, { id: `${id} ${part}`, type: "wait", s: this.timeout / 1000 });
+      if (this.isTrue(when)) {
+        yield this.done(at, { id, type: "wait", s: 0 });
+        return undefined;
+      }
+      if (this.source.fates.get(at) === "on") return undefined;
+      this.jump = label;
+      this.jumpFrom = at;
+      return "break";
+    }
+    if (this.condition(when) !== undefined) {
+      yield this.done(at, this.waitFor(action, at, id));
+      return undefined;
+    }
+    const lines = this.leaves(when);
+    if (lines.length > 0 && !this.isTrue(when)) {
+      if (this.isAlternative(when))
+        this.notices!.add(
+          at,
+          "a condition of one line",
+          `Line ${at.line} waits for one of several conditions: here it waits for the first of them.`,
+        );
+      for (const [i, line] of (this.isAlternative(when) ? lines.slice(0, 1) : lines).entries())
+        yield this.done(at, { id: `${id} ${i}`, type: "wait-for", when: line });
+      return undefined;
+    }
+    if (!this.isTrue(when))
+      this.notices!.add(
+        at,
+        "a condition that the program or a line makes true",
+        `Line ${at.line} waits for what nothing here makes true: the program goes on as if it were.`,
+      );
+    yield this.done(at, { id, type: "wait", s: 0 });
+    return undefined;
+  }
+
+  /** The conditions of one line that are joined in a condition and do not hold now. */
+  private leaves(of: Expression): readonly Condition[] {
+    const own = this.condition(of);
+    if (own !== undefined) return this.lines.holds(own) ? [] : [own];
+    if (of.kind !== "binary" || (of.sign !== "and" && of.sign !== "or")) return [];
+    return [...this.leaves(of.left), ...this.leaves(of.right)];
+  }
+  private isAlternative(of: Expression): boolean {
+    return of.kind === "binary" && (of.sign === "or" || this.isAlternative(of.left) || this.isAlternative(of.right));
+  }
+
+  private step(action: Exclude<Action, { kind: "jump" | "jump-to" }>, at: Do): Step | undefined {
     const id = (): string => this.stepId(at);
     switch (action.kind) {
       case "motion":
@@ -316,12 +299,33 @@ export class Machine extends BlockMachine<Value> {
         this.timeout = this.numberOf(action.value);
         return undefined;
       case "select": {
+        const before = this.unknowns;
         const number = this.numberOf(action.number);
-        this.setups.inUse[action.what] = number;
+        // A number that only the controller knows: positions bring their own.
+        this.setups.inUse[action.what] = this.unknowns === before ? number : undefined;
         return undefined;
       }
       case "define":
         this.define(action, at);
+        return undefined;
+      case "flag": {
+        const to = this.evaluate(action.value);
+        const number = this.numberOf(action.number);
+        this.lines.write(this.lines.line(action.word, number, at), to === true || (typeof to === "number" && to !== 0));
+        return undefined;
+      }
+      case "move-register": {
+        const value = this.evaluate(action.value);
+        if (typeof value !== "object") throw new TextError(at, "a position", "A number is no position.");
+        this.moved.set(this.positionKey(this.numberOf(action.number)), value);
+        return undefined;
+      }
+      case "pause":
+        this.notices?.add(
+          at,
+          "a program that goes on by itself",
+          `Line ${at.line} waits for a person to go on: the program goes on here.`,
+        );
         return undefined;
       case "label":
       case "nothing":
@@ -332,6 +336,13 @@ export class Machine extends BlockMachine<Value> {
   private define({ what, number, value }: Extract<Action, { kind: "define" }>, at: TextPlace): void {
     const six = this.evaluate(value);
     const name = this.registerName(value);
+    if (isSix(six) && !isKnown(six) && this.notices !== undefined) {
+      this.notices.notGiven(
+        at,
+        `The position of ${what.toUpperCase()}[${this.numberOf(number)}] is in none of the files: it is taken to be no different from the ${what === "uframe" ? "world" : "flange"}.`,
+      );
+      return;
+    }
     if (!isSix(six)) throw new TextError(at, "a position register", "A number is no frame.");
     const matrix = fromSix(six);
     const key = `${what}${this.numberOf(number)}`;
@@ -342,13 +353,21 @@ export class Machine extends BlockMachine<Value> {
 
   private set({ word, number, value, pulse }: Extract<Action, { kind: "set" }>, at: TextPlace, id: () => string): Step {
     const line = this.numberOf(number);
-    const to = this.evaluate(value);
+    const given = this.evaluate(value);
+    // A group of lines takes the number that a decision is, a line what a number says.
+    const digital = kindOfLine(word).startsWith("digital");
+    const to =
+      typeof given === "boolean" && !digital
+        ? Number(given)
+        : typeof given === "number" && digital
+          ? given !== 0
+          : given;
     if (kindOfLine(word).endsWith("in"))
       throw new TextError(at, "an output", `${word.toUpperCase()}[${line}] is an input.`);
     if (`${word}${line}` === GRIPPER && typeof to === "boolean" && pulse === undefined)
       return { id: id(), type: "gripper", closed: to };
     const signal = this.lines.line(word, line, at);
-    if (isSix(to) || (typeof to === "boolean") !== kindOfLine(word).startsWith("digital"))
+    if (typeof to === "object" || (typeof to === "boolean") !== kindOfLine(word).startsWith("digital"))
       throw new TextError(
         at,
         kindOfLine(word).startsWith("digital") ? "ON or OFF" : "a number",
@@ -384,26 +403,22 @@ export class Machine extends BlockMachine<Value> {
   private record({ register, number }: Point, at: TextPlace): PositionRecord {
     const n = this.numberOf(number);
     if (register === "pr") {
-      const values = this.register(`pr${n}`, at);
-      if (!isSix(values)) throw new TextError(at, "a position", `PR[${n}] holds no position.`);
-      return {
-        uf: this.setups.inUse.uframe ?? 0,
-        ut: this.setups.inUse.utool ?? 0,
-        joints: false,
-        config: undefined,
-        values,
-        line: at.line,
-        column: at.column,
-        others: "",
-      };
+      return this.fromValue(this.register(`pr${n}`, at), `PR[${n}]`, at);
     }
-    const record = this.source.positions.get(this.scopes.at(-1)?.routine ?? "")?.get(n);
-    if (record === undefined) throw new TextError(at, "a position in /POS", `P[${n}] is not in the list of positions.`);
+    const moved = this.moved.get(this.positionKey(n));
+    if (moved !== undefined) return this.fromValue(moved, `P[${n}]`, at);
+    const record = this.listed(n, at);
+    if (record.remote)
+      throw new TextError(
+        at,
+        "a position of a tool that the robot carries",
+        `P[${n}] was taught with a tool that stands in the cell (RX, RY, RZ), which is not executed here.`,
+      );
     for (const [word, taught, used] of [
       ["UFRAME", record.uf, this.setups.inUse.uframe],
       ["UTOOL", record.ut, this.setups.inUse.utool],
     ] as const) {
-      if (used !== undefined && used !== taught)
+      if (used !== undefined && taught !== undefined && used !== taught)
         throw new TextError(
           at,
           `a position of ${word} ${used}`,
@@ -413,12 +428,45 @@ export class Machine extends BlockMachine<Value> {
     return record;
   }
 
+  /** The value of a register as a position in the frame and the tool that are in use. */
+  private fromValue(value: Value, name: string, at: TextPlace): PositionRecord {
+    if (!isSix(value) && !isJoints(value)) throw new TextError(at, "a position", `${name} holds no position.`);
+    return {
+      uf: this.setups.inUse.uframe,
+      ut: this.setups.inUse.utool,
+      joints: isJoints(value),
+      config: undefined,
+      remote: false,
+      values: isJoints(value) ? value.joints_deg : value,
+      line: at.line,
+      column: at.column,
+      others: "",
+    };
+  }
+
+  /** How fast a motion is; what only the controller knows of it is said. */
+  private pace(motion: Motion, at: TextPlace): MoveStep["speed"] {
+    const { speed, unit, path } = motion;
+    if (unit === "max_speed") return path === "J" ? { ratio: 1 } : FASTEST;
+    const before = this.unknowns;
+    const value = speed === undefined ? 0 : this.numberOf(speed);
+    const isGiven = speed !== undefined && (this.unknowns === before || value > 0);
+    if (this.notices !== undefined && (!isGiven || (!(value > 0) && speed.kind !== "number"))) {
+      const { said, assumed } = planned(unit, path);
+      this.notices.notGiven(at, `The speed of line ${at.line} is in none of the files: it is planned at ${said}.`);
+      return assumed;
+    }
+    if (speed === undefined)
+      throw new TextError(at, "a speed", `${unit.toUpperCase()} is in none of the files: the speed is not known.`);
+    return speedOf(value, { unit, path }, at);
+  }
+
   private motion(motion: Motion, at: Do, id: string): MoveStep {
     const { path, goal, via, cnt, acceleration, offset } = motion;
     const shifted = this.shift(offset, at);
     const inTool = this.toolShift(motion.toolOffset, at);
     this.further(motion, at);
-    const speed = speedOf(this.numberOf(motion.speed), motion, at);
+    const speed = this.pace(motion, at);
     const ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100);
     const share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
     if (!(share >= 0 && share <= 1)) throw new TextError(at, "CNT0 … CNT100", `CNT${share * 100} is no share of 100.`);
@@ -431,7 +479,9 @@ export class Machine extends BlockMachine<Value> {
       blend_m: 0,
       ...(share > 0 ? { blend_ratio: share } : {}),
     } as const;
-    const target = this.target(goal, shifted, inTool, path === "J" ? "by-joints" : "by-path", at);
+    const how = path === "J" ? "by-joints" : "by-path";
+    const target =
+      motion.incremental === true ? this.further_by(goal, how, at) : this.target(goal, shifted, inTool, how, at);
     return {
       ...common,
       path: path === "J" ? "ptp" : path === "L" ? "lin" : "circ",
@@ -441,13 +491,23 @@ export class Machine extends BlockMachine<Value> {
     };
   }
 
-  private search({ skip }: Motion, at: Do): Pick<MoveStep, "until"> {
+  private search(motion: Motion, at: Do): Pick<MoveStep, "until"> {
+    const { skip } = motion;
     if (skip === undefined) return {};
     const when = this.skip === undefined ? undefined : this.condition(this.skip);
     const fate = this.source.fates.get(at);
+    if (when === undefined && this.notices !== undefined) {
+      this.notices.add(
+        at,
+        "a condition of one line",
+        `The search of line ${at.line} has no condition of one line: the motion goes to its end.`,
+      );
+      return {};
+    }
     if (when === undefined)
       throw new TextError(at, "SKIP CONDITION of one line before it", "The search has no condition of one line.");
-    if (fate === "elsewhere" || fate === undefined)
+    if (this.notices !== undefined && this.leads(motion, at)) return { until: { when, missing: "continue" } };
+    if (motion.jumpsWhenMet === true || fate === "elsewhere" || fate === undefined)
       throw new TextError(
         at,
         "a label in the next line, or one before ABORT",
@@ -494,6 +554,33 @@ export class Machine extends BlockMachine<Value> {
     this.others = others;
   }
 
+  /** INC: from where the robot stands, along the axes of the frame, or by joint angles. */
+  private further_by(point: Point, how: "by-joints" | "by-path", at: TextPlace): Target {
+    const record = this.record(point, at);
+    const { values } = record;
+    if (values === undefined)
+      throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
+    const ut = this.setups.inUse.utool ?? record.ut ?? 0;
+    const tool = this.setups.of("utool", ut, at);
+    const name = this.setups.toolName(tool);
+    if (record.joints)
+      return { q: this.arm.atShown(this.arm.shown().map((angle, i) => angle + values[i]!)), tool: name };
+    if (values.slice(3).some(angle => angle !== 0))
+      throw new TextError(at, "a position that does not turn", "INC with a turn of the tool is not executed here.");
+    const frame = this.setups.of("uframe", this.setups.inUse.uframe ?? record.uf ?? 0, at);
+    const standing = times(times(inverted(frame.matrix), this.arm.flange), tool.matrix);
+    const seen = moved(standing, [values[0]!, values[1]!, values[2]!]);
+    const named = this.setups.frameName(frame);
+    const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), undefined);
+    if (how === "by-joints" && reached.q !== undefined && !this.writesDown) return { q: reached.q, tool: name };
+    return {
+      pose: named === "world" ? this.arm.cell<"frame", "tcp">(times(frame.matrix, seen)) : toPose<"frame", "tcp">(seen),
+      frame: named,
+      tool: name,
+      ...(reached.branch === undefined ? {} : { branch: reached.branch }),
+    };
+  }
+
   private target(
     point: Point,
     shifted: ReturnType<Machine["shift"]>,
@@ -503,8 +590,8 @@ export class Machine extends BlockMachine<Value> {
   ): Target {
     const record = this.record(point, at);
     const { values, config } = record;
-    const uf = this.setups.inUse.uframe ?? record.uf;
-    const ut = this.setups.inUse.utool ?? record.ut;
+    const uf = this.setups.inUse.uframe ?? record.uf ?? 0;
+    const ut = this.setups.inUse.utool ?? record.ut ?? 0;
     if (values === undefined)
       throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
     const frame = this.setups.of("uframe", uf, at);
@@ -530,7 +617,13 @@ export class Machine extends BlockMachine<Value> {
     const target = inPlace === undefined ? plain : { ...plain, ...inPlace };
     if (how === "on-the-way") return target;
     const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), config);
-    if (how === "by-joints" && !reached.fits)
+    if (how === "by-joints" && !reached.fits && this.notices !== undefined)
+      this.notices.add(
+        at,
+        "a configuration that reaches the position",
+        `Line ${at.line}: this robot does not reach the position in its configuration; the nearest posture is taken.`,
+      );
+    else if (how === "by-joints" && !reached.fits)
       throw new TextError(
         at,
         "a configuration that reaches the position",
@@ -580,11 +673,11 @@ export class Machine extends BlockMachine<Value> {
     const values = super.remember();
     const arm = this.arm.remember();
     const { timeout, skip, offset, toolOffset, others, jump } = this;
-    const kept = [this.lines.remember(), this.setups.remember(), rememberMap(this.differences)];
+    const registers = this.rememberRegisters();
     return () => {
       values();
       arm();
-      for (const back of kept) back();
+      registers();
       this.timeout = timeout;
       this.skip = skip;
       this.offset = offset;

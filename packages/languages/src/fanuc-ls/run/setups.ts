@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
+import { nameIn, rememberMap, type DeclaredCell, type Notices } from "../../parser/index.ts";
 import type { ControllerArm } from "./arm.ts";
 import { NOTHING, toPose, type Matrix } from "./matrix.ts";
 
@@ -9,6 +9,10 @@ export interface Setup {
   readonly name: string;
 }
 type What = "uframe" | "utool";
+
+/** What is taken of a frame or a tool that is set up nowhere. */
+export const assumption = (name: string): string =>
+  `${name} is set up nowhere in the text: it is taken to be no different from the ${name.startsWith("UF") ? "world" : "flange"}.`;
 
 /** The user frames and tools of the controller, and which of them is in use. */
 export class Setups {
@@ -20,7 +24,10 @@ export class Setups {
   private readonly arm: ControllerArm;
   private readonly known = new Map<string, Setup>();
 
-  constructor(declared: DeclaredCell, arm: ControllerArm) {
+  private readonly notices: Notices | undefined;
+
+  constructor(declared: DeclaredCell, arm: ControllerArm, notices?: Notices) {
+    this.notices = notices;
     this.declared = declared;
     this.arm = arm;
   }
@@ -34,7 +41,10 @@ export class Setups {
     if (known !== undefined) return known;
     if (number === 0) return { matrix: NOTHING, name: what === "uframe" ? "world" : "flange" };
     const name = `${what.toUpperCase()} ${number}`;
-    if (!this.assumed.has(name)) this.assumed.set(name, at);
+    if (!this.assumed.has(name)) {
+      this.assumed.set(name, at);
+      this.notices?.notGiven(at, assumption(name));
+    }
     return { matrix: NOTHING, name };
   }
   /** The one in use. */

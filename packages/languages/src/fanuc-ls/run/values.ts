@@ -1,17 +1,25 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 
-/** A number, ON or OFF, or the six numbers of a position. */
-export type Value = number | boolean | readonly number[];
+/** Joint angles [deg] as the pendant shows them. */
+export interface JointValue {
+  readonly joints_deg: readonly number[];
+}
+/** A number, ON or OFF, the six numbers of a position, or its joint angles. NaN is what only the controller knows. */
+export type Value = number | boolean | readonly number[] | JointValue;
 
-export const isSix = (value: Value): value is readonly number[] => typeof value === "object";
+export const isSix = (value: Value): value is readonly number[] => Array.isArray(value);
+export const isJoints = (value: Value): value is JointValue => typeof value === "object" && !Array.isArray(value);
+/** A position that only the controller knows. */
+export const UNKNOWN: readonly number[] = [NaN, NaN, NaN, NaN, NaN, NaN];
+export const isKnown = (six: readonly number[]): boolean => !six.some(Number.isNaN);
 
 export function asNumber(value: Value, at: TextPlace): number {
   if (typeof value === "number") return value;
   throw new TextError(
     at,
     "a number",
-    `${isSix(value) ? "A position" : "ON or OFF"} stands where a number is expected.`,
+    `${typeof value === "object" ? "A position" : "ON or OFF"} stands where a number is expected.`,
   );
 }
 
@@ -29,6 +37,11 @@ export function binary(sign: string, left: Value, right: Value, at: TextPlace): 
       default:
         throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
     }
+  }
+  if (typeof left === "boolean" || typeof right === "boolean") {
+    // ON is 1 beside a number.
+    if (typeof left === "number" || typeof right === "number")
+      return binary(sign, Number(left as number | boolean), Number(right as number | boolean), at);
   }
   // Positions add and subtract number by number.
   if (isSix(left) && isSix(right) && (sign === "+" || sign === "-"))

@@ -5,7 +5,8 @@ import {
   inverse,
   pose,
   rotate,
-  type Condition,
+  isCondition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PalletStep,
@@ -18,15 +19,18 @@ import {
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
+  PENDANT_UNITS,
   UnsupportedStep,
   FANUC_LINES,
   Names,
   StepWriter,
   called,
+  expressionText,
   fixed,
   outOfRange,
   patternOf,
   pitchTerm,
+  type ExpressionWords,
   type Place,
 } from "../../emitter/index.ts";
 import { GRIPPER_OUTPUT } from "../robots.ts";
@@ -146,6 +150,10 @@ export class ProgramWriter extends StepWriter {
       case "comment":
         for (const line of inLines(asciiText(step.text), REMARK_LENGTH - 2)) add(`!- ${line}`.trimEnd());
         return;
+      case "assign":
+        return this.assign(step, add);
+      case "while":
+        return this.whileLoop(step, add);
       case "call":
         add(`CALL ${this.routineName(step.routine)}`);
         return this.begin();
@@ -179,6 +187,51 @@ export class ProgramWriter extends StepWriter {
     add(step.times === "forever" ? `JMP LBL[${label}]` : "ENDFOR");
     this.begin();
   }
+
+  /** TP has no WHILE: a label, a decision and a jump back, as its programmers write it. */
+  private whileLoop(step: Extract<Step, { type: "while" }>, add: (line: string) => void): void {
+    const label = this.out.label();
+    add(`LBL[${label}]`);
+    add(`IF (${this.condition(step.when, step)}) THEN`);
+    this.block(step.steps);
+    add(`JMP LBL[${label}]`);
+    add("ENDIF");
+    this.begin();
+  }
+
+  private assign(step: Extract<Step, { type: "assign" }>, add: (line: string) => void): void {
+    const text = expressionText(step.to, this.words, this.place.program, step);
+    const isPlain = typeof step.to === "boolean" || (typeof step.to === "number" && step.to >= 0);
+    add(`${this.words.variable(step.variable)}=${isPlain ? text : `(${text})`}`);
+  }
+
+  private readonly words: ExpressionWords = {
+    // Yes is kept as 1 and no as 0.
+    truth: ["0", "1"],
+    number: value => fixed(value, 6),
+    variable: name => this.registers.variable(name),
+    truthVariable: name => `${this.registers.variable(name)}=1`,
+    line: (signal, step, isDigital) => `${this.lineOf(signal, step).text}${isDigital ? "=ON" : ""}`,
+    not: inner => `!${inner}`,
+    signs: {
+      and: " AND ",
+      or: " OR ",
+      "=": "=",
+      "<>": "<>",
+      "<": "<",
+      "<=": "<=",
+      ">": ">",
+      ">=": ">=",
+      "+": "+",
+      "-": "-",
+      "*": "*",
+      "/": "/",
+      div: " DIV ",
+      mod: " MOD ",
+    },
+    calls: {},
+    scale: PENDANT_UNITS,
+  };
 
   private decision(step: Extract<Step, { type: "if" }>, add: (line: string) => void): void {
     add(`IF (${this.condition(step.when, step)}) THEN`);
@@ -301,7 +354,8 @@ export class ProgramWriter extends StepWriter {
     add(`WAIT ${when} TIMEOUT,LBL[${this.out.abortLabel()}]`);
   }
 
-  private condition(when: Condition, step: Step): string {
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.words, this.place.program, step);
     const { text, kind } = this.lineOf(when.signal, step);
     if ("is" in when !== kind.startsWith("digital"))
       throw new UnsupportedStep(

@@ -17,6 +17,7 @@ export class Registers {
   private readonly tools: string[] = [];
   private readonly frames: string[] = [];
   private readonly positions = new Map<string, string>();
+  private readonly variables = new Map<string, string>();
   private numbers = 0;
 
   constructor(place: Place) {
@@ -81,6 +82,15 @@ export class Registers {
         "Put parts of it into another program.",
       );
     return labelled("R", this.numbers, name);
+  }
+
+  /** The number register of a variable. */
+  variable(name: string): string {
+    const known = this.variables.get(name);
+    if (known !== undefined) return known;
+    const text = this.number(name);
+    this.variables.set(name, text);
+    return text;
   }
 
   /** The position register of that name. */

@@ -12,7 +12,7 @@ const RULES: LineRules<Kind> = {
     ["label", /\*[A-Za-z0-9_-]+/y],
     ["word", /\$?[A-Za-z_][A-Za-z0-9_#]*/y],
     ["number", /-?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)/y],
-    ["sign", /<>|<=|>=|[-=<>():,+]/y],
+    ["sign", /<>|<=|>=|[-=<>():,+*/[\]]/y],
   ],
 };
 
@@ -36,6 +36,13 @@ export class Cursor extends LineCursor<Kind> {
     this.take();
     this.take();
     return this.number(`the number of ${name}`);
+  }
+
+  /** What is left of the line, as it stands. It is then behind. */
+  rest(): string {
+    const text = this.done ? "" : this.text.slice(this.here.column - 1);
+    this.skip();
+    return text;
   }
 
   /** What is left of the line up to the next blank, as it stands: names of jobs hold more than letters. */

@@ -7,6 +7,7 @@ import type { Instruction, Job, Operand, Position } from "./syntax.ts";
 type Jumping = Extract<Instruction, { to: number }>;
 type Open = { readonly at: TextPlace; readonly leaves: Jumping[] } & (
   | { readonly kind: "IFTHENEXP"; miss: Jumping | undefined }
+  | { readonly kind: "WHILEEXP"; readonly start: number }
   | { readonly kind: "FOR"; readonly variable: string; readonly slot: number; readonly start: number }
 );
 const ONE: Operand = { kind: "number", value: 1 };
@@ -15,6 +16,7 @@ const ONE: Operand = { kind: "number", value: 1 };
 export class JobBuilder {
   readonly name: string;
   readonly positions = new Map<string, Position>();
+  readonly others = new Map<string, string>();
   private readonly place: TextPlace;
   private readonly code: Instruction[] = [];
   private readonly open: Open[] = [];
@@ -41,6 +43,7 @@ export class JobBuilder {
     switch (cursor.next) {
       case "JUMP":
         return this.readJump(cursor, at);
+      case "IFTHEN":
       case "IFTHENEXP": {
         cursor.take();
         const when = condition(cursor);
@@ -48,6 +51,7 @@ export class JobBuilder {
         this.open.push({ kind: "IFTHENEXP", at, leaves: [], miss: this.push({ kind: "unless", when, to: -1, at }) });
         return;
       }
+      case "ELSEIF":
       case "ELSEIFEXP": {
         const block = this.branch(cursor, at);
         const when = condition(cursor);
@@ -66,6 +70,22 @@ export class JobBuilder {
         if (block.miss !== undefined) block.miss.to = this.code.length;
         return this.close(block);
       }
+      case "WHILEEXP": {
+        cursor.take();
+        const start = this.code.length;
+        const when = condition(cursor);
+        cursor.expectEnd();
+        this.open.push({ kind: "WHILEEXP", at, start, leaves: [this.push({ kind: "unless", when, to: -1, at })] });
+        return;
+      }
+      case "ENDWHILE": {
+        const block = this.open.at(-1);
+        if (block?.kind !== "WHILEEXP") throw cursor.unexpected("an instruction, since no WHILEEXP is open");
+        cursor.take();
+        cursor.expectEnd();
+        this.push({ kind: "jump", to: block.start, at });
+        return this.close(block);
+      }
       case "FOR":
         return this.readFor(cursor, at);
       case "NEXT":
@@ -81,7 +101,7 @@ export class JobBuilder {
     if (block !== undefined)
       throw new TextError(
         block.at,
-        block.kind === "FOR" ? "NEXT" : "ENDIF",
+        block.kind === "FOR" ? "NEXT" : block.kind === "WHILEEXP" ? "ENDWHILE" : "ENDIF",
         `The ${block.kind} of line ${block.at.line} is not closed before line ${end.line}.`,
       );
     for (const { jump, label, at } of this.jumps) {
@@ -94,6 +114,7 @@ export class JobBuilder {
       name: this.name,
       place: this.place,
       positions: this.positions,
+      others: this.others,
       instructions: this.code,
       slots: this.slots,
     };
@@ -107,9 +128,24 @@ export class JobBuilder {
   private readJump(cursor: Cursor, at: TextPlace): void {
     cursor.take();
     const to = cursor.here;
+    if (cursor.next === "LABEL" && cursor.second === ":") {
+      cursor.take();
+      cursor.take();
+      const number = operand(cursor);
+      const unless = cursor.accept("IF")
+        ? this.push({ kind: "unless", when: condition(cursor), to: -1, at })
+        : undefined;
+      cursor.expectEnd();
+      this.push({ kind: "jump-to", number, labels: this.labels, at });
+      if (unless !== undefined) unless.to = this.code.length;
+      return;
+    }
     if (cursor.nextKind !== "label") throw cursor.unexpected("a label such as *AGAIN");
     const label = cursor.take().toUpperCase();
-    const over = cursor.accept("IF") ? this.push({ kind: "unless", when: condition(cursor), to: -1, at }) : undefined;
+    const over =
+      cursor.accept("IF") || cursor.accept("IFEXPRESS")
+        ? this.push({ kind: "unless", when: condition(cursor), to: -1, at })
+        : undefined;
     cursor.expectEnd();
     this.jumps.push({ jump: this.push({ kind: "jump", to: -1, at }), label, at: to });
     if (over !== undefined) over.to = this.code.length;

@@ -12,7 +12,7 @@ export type SourceAnswer =
 /** More faults than this help nobody. */
 const MOST_FAULTS = 50;
 const NUMBERS = /^-?[0-9]+(?:\.[0-9]*)?(?:,-?[0-9]+(?:\.[0-9]*)?)*$/;
-const TYPES: ReadonlySet<string> = new Set(["PULSE", "BASE", "ROBOT", "USER"]);
+const TYPES: ReadonlySet<string> = new Set(["PULSE", "ANGLE", "BASE", "ROBOT", "TOOL", "USER"]);
 
 /**
  * Reads jobs, one behind the other in one text, first one first, with the tools (TOOL.CND) and user frames (UFRAME.CND)
@@ -81,6 +81,8 @@ class SourceReader {
       case "user":
         return;
       default:
+        // Remarks stand before a job and behind it.
+        if (text.trimStart().startsWith("'")) return;
         throw new TextError(at, "/JOB", `"${text.slice(0, 20)}" stands outside a job.`);
     }
   }
@@ -141,7 +143,11 @@ class SourceReader {
       case "///POSTYPE": {
         const type = rest.trim().toUpperCase();
         if (!TYPES.has(type))
-          throw new TextError(at, "PULSE, BASE, ROBOT or USER", `Positions of type ${type} are not understood here.`);
+          throw new TextError(
+            at,
+            "PULSE, ANGLE, BASE, ROBOT, TOOL or USER",
+            `Positions of type ${type} are not understood here.`,
+          );
         this.type = type as PositionType;
         return;
       }
@@ -175,18 +181,19 @@ class SourceReader {
   }
 
   private position(text: string, at: TextPlace): void {
-    const match = /^((?:C|P)[0-9]{3,5})\s*=\s*(.*)$/i.exec(text.trim());
+    const match = /^((?:C|L?P)[0-9]{3,5})\s*=\s*(.*)$/i.exec(text.trim());
     if (match === null) {
-      if (/^(?:BC|EC|BP|EX)[0-9]+\s*=/i.test(text.trim()))
-        throw new TextError(
-          at,
-          "positions of the robot alone",
-          "Positions of a track or a station are not understood here.",
-        );
+      // Positions of a track or a station are kept: they are not moved here.
+      const other = /^((?:BC|EC|L?BP|L?EX)[0-9]{3,5})\s*=\s*(.*)$/i.exec(text.trim());
+      if (other !== null) {
+        this.builder!.others.set(positionKey(other[1]!), other[2]!.trim());
+        return;
+      }
       throw new TextError(at, "a position such as C00000=1,2,3,4,5,6", `"${text.slice(0, 20)}" is no position.`);
     }
     const key = positionKey(match[1]!);
-    const values = this.type === "PULSE" ? this.numbers(match[2]!, at) : this.six(match[2]!, at);
+    const values =
+      this.type === "PULSE" || this.type === "ANGLE" ? this.numbers(match[2]!, at) : this.six(match[2]!, at);
     if (this.builder!.positions.has(key))
       throw new TextError(at, "a position used once", `Position ${key} is in the job twice.`);
     this.builder!.positions.set(key, {

@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
 
 /** In which frame the numbers of a position count. */
-export type PositionType = "PULSE" | "BASE" | "ROBOT" | "USER";
+export type PositionType = "PULSE" | "ANGLE" | "BASE" | "ROBOT" | "TOOL" | "USER";
 /** A position of a job, with the settings in force where it is written. */
 export interface Position extends TextPlace {
   readonly type: PositionType;
@@ -11,16 +11,22 @@ export interface Position extends TextPlace {
   readonly values: readonly number[];
   readonly rconf: readonly number[];
 }
+/** A line of the controller, or a group of eight or four of them as a number. */
+export type Wire = "IN" | "OT" | "SIN" | "SOUT" | "IG" | "OG" | "IGH" | "OGH" | "AI" | "RIN";
 
 /** A constant, or a variable by its letter and number. */
 export type Operand =
   | { readonly kind: "number"; readonly value: number }
   | { readonly kind: "variable"; readonly name: string }
-  | { readonly kind: "line"; readonly wire: "IN" | "OT"; readonly number: number };
+  | { readonly kind: "line"; readonly wire: Wire; readonly number: number }
+  /** EXPRESS: worked out from left to right, × and ÷ first. */
+  | { readonly kind: "sum"; readonly sign: "+" | "-" | "*" | "/"; readonly left: Operand; readonly right: Operand };
 export interface Condition {
   readonly left: Operand;
   readonly sign: "=" | "<>" | "<" | ">" | "<=" | ">=";
   readonly right: Operand | "ON" | "OFF";
+  /** ANDEXP and OREXP, from left to right. */
+  readonly more?: readonly { readonly join: "and" | "or"; readonly condition: Condition }[];
 }
 
 export interface Move {
@@ -35,19 +41,51 @@ export interface Move {
   readonly dec: number | undefined;
   readonly isLastOfArc: boolean;
   readonly until: Condition | undefined;
+  /** Variables that say the speed: 0.1 mm/s and 0.01 %. */
+  readonly speedIn?: { readonly v?: Operand; readonly vj?: Operand };
+  /** EC00000, BC00000 and their like: where further axes go with it. */
+  readonly others?: readonly string[];
+  /** SMOVL, SMOVC: the robot follows what a station carries. */
+  readonly follows?: boolean;
+  /** IMOV: the position is how far the robot goes. */
+  readonly by?: { readonly frame: "BASE" | "ROBOT" | "TOOL" | "USER"; readonly user: number };
 }
 
 export type Statement = TextPlace &
   (
     | ({ readonly kind: "move" } & Move)
     | { readonly kind: "timer"; readonly s: Operand; readonly isHundredths: boolean }
-    | { readonly kind: "dout"; readonly number: number; readonly to: boolean }
+    | { readonly kind: "dout"; readonly number: number; readonly to: boolean; readonly wire?: "SOUT" }
+    /** A group of lines takes a number. */
+    | { readonly kind: "group"; readonly wire: "OG" | "OGH"; readonly number: number; readonly to: Operand }
     | { readonly kind: "pulse"; readonly number: number; readonly s: number }
     | { readonly kind: "aout"; readonly number: number; readonly to: number }
     | { readonly kind: "din"; readonly to: string; readonly from: Operand }
-    | { readonly kind: "wait"; readonly when: Condition }
+    | { readonly kind: "wait"; readonly when: Condition; readonly s?: Operand }
     | { readonly kind: "hand"; readonly to: boolean }
-    | { readonly kind: "call"; readonly job: string; readonly when: Condition | undefined }
+    | {
+        readonly kind: "call";
+        readonly job: string;
+        readonly when: Condition | undefined;
+        readonly args?: readonly Operand[];
+      }
+    /** GETARG: an argument of the call. */
+    | { readonly kind: "argument"; readonly to: string; readonly number: number }
+    /** Sets a variable, or all of a position, to what only the controller knows. */
+    | { readonly kind: "unknown"; readonly to: string; readonly from: string }
+    /** A position variable takes another one, or is moved by it. */
+    | {
+        readonly kind: "positions";
+        readonly word: "SET" | "ADD" | "SUB";
+        readonly to: string;
+        readonly by: string;
+      }
+    /** MFRAME: a user frame through three positions: its origin, a point on x, and one on the side of y. */
+    | { readonly kind: "frame"; readonly user: number; readonly through: readonly [string, string, string] }
+    /** Something that could move the robot, which is not known here. */
+    | { readonly kind: "away"; readonly what: string; readonly when?: Condition | undefined }
+    /** Kept and named. */
+    | { readonly kind: "shown"; readonly what: string }
     | { readonly kind: "return"; readonly when: Condition | undefined }
     | { readonly kind: "abort"; readonly when: Condition | undefined }
     | { readonly kind: "message"; readonly text: string }
@@ -83,6 +121,13 @@ export type Statement = TextPlace &
 export type Instruction =
   | { readonly kind: "statement"; readonly statement: Statement }
   | { readonly kind: "jump"; to: number; readonly at: TextPlace }
+  /** JUMP LABEL:B000, to the label of that number. */
+  | {
+      readonly kind: "jump-to";
+      readonly number: Operand;
+      readonly labels: ReadonlyMap<string, number>;
+      readonly at: TextPlace;
+    }
   /** Goes on only when the condition holds. */
   | { readonly kind: "unless"; readonly when: Condition; to: number; readonly at: TextPlace }
   | {
@@ -102,6 +147,8 @@ export interface Job {
   readonly place: TextPlace;
   /** By C00000 or P000. */
   readonly positions: ReadonlyMap<string, Position>;
+  /** Positions of further axes, by BC00000 or EC00000. */
+  readonly others: ReadonlyMap<string, string>;
   readonly instructions: readonly Instruction[];
   readonly slots: number;
 }

@@ -1,6 +1,7 @@
 import type { Executed, MoveStep, Pose, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside } from "../../parser/index.ts";
-import type { Condition, Instruction, Job, Move, Position, Source, Statement } from "../read/syntax.ts";
+import { TextError, WaitsOutside, type Notices } from "../../parser/index.ts";
+import type { Condition, Instruction, Job, Move, Operand, Position, Source, Statement } from "../read/syntax.ts";
+import { positionKey } from "../read/statement.ts";
 import { poseOf } from "./arm.ts";
 import { Memory, looksOutside } from "./memory.ts";
 import type { Context, ControllerState } from "./state.ts";
@@ -19,6 +20,8 @@ interface Frame {
   at: number;
   readonly last: number[];
   readonly step: number[];
+  /** Arguments of the call. */
+  readonly args: readonly number[];
 }
 
 /** An input is asked while what stands before it is not executed yet. Never leaves the machine. */
@@ -48,11 +51,21 @@ export class Machine {
   private readonly taken = new Map<string, Pose<"base", "flange">>();
   private idle = 0;
   private stopped = false;
+  private readonly notices: Notices | undefined;
+  /** Where further axes were sent last. */
+  private others: string | undefined;
 
-  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: Context["signals"]) {
+  constructor(
+    source: Source,
+    state: ControllerState,
+    signals: Signals | undefined,
+    met: Context["signals"],
+    notices?: Notices,
+  ) {
     this.source = source;
     this.state = state;
-    this.memory = new Memory(signals, met);
+    this.notices = notices;
+    this.memory = new Memory(signals, met, name => this.globalPosition(name), notices);
   }
 
   /** @throws {TextError} where the text cannot be executed further. */
@@ -95,6 +108,15 @@ export class Machine {
         this.spend(instruction.at);
         frame.at = instruction.to;
         return;
+      case "jump-to": {
+        this.spend(instruction.at);
+        const label = `*${memory.value(instruction.number)}`;
+        const to = instruction.labels.get(label);
+        if (to === undefined)
+          throw new TextError(instruction.at, "a label of this job", `Label ${label} is not in job ${frame.job.name}.`);
+        frame.at = to;
+        return;
+      }
       case "unless":
         this.spend(instruction.at);
         if (!this.holds(instruction.when, instruction.at)) frame.at = instruction.to;
@@ -154,7 +176,16 @@ export class Machine {
         return done({ id: id(), type: "wait", s });
       }
       case "dout":
-        return done({ id: id(), type: "set", signal: memory.write(statement.number, statement.to), to: statement.to });
+        return done({
+          id: id(),
+          type: "set",
+          signal: memory.write(statement.number, statement.to, statement.wire ?? "OT"),
+          to: statement.to,
+        });
+      case "group": {
+        const to = memory.value(statement.to);
+        return done({ id: id(), type: "set", signal: memory.write(statement.number, to, statement.wire), to });
+      }
       case "pulse":
         if (!(statement.s > 0)) throw new TextError(statement, "a time above 0 s", `The time is ${statement.s} s.`);
         return done({
@@ -171,7 +202,7 @@ export class Machine {
         memory.set(statement.to, memory.value(statement.from), statement);
         break;
       case "wait":
-        return done({ id: id(), type: "wait-for", when: memory.awaited(statement.when, statement) });
+        return this.wait(statement, done, id);
       case "hand":
         return done({ id: id(), type: "gripper", closed: statement.to });
       case "message":
@@ -181,7 +212,54 @@ export class Machine {
         this.stopped = true;
         return done({ id: id(), type: "stop" });
       case "call":
-        if (statement.when === undefined || this.holds(statement.when, statement)) this.call(statement.job, statement);
+        if (statement.when === undefined || this.holds(statement.when, statement)) this.call(statement, statement);
+        break;
+      case "argument": {
+        const given = frame.args[statement.number - 1];
+        if (given === undefined)
+          memory.notGiven(`The job is called without an argument ${statement.number}: it is taken as 0.`);
+        memory.set(statement.to, given ?? 0, statement);
+        break;
+      }
+      case "unknown":
+        if (this.notices === undefined)
+          throw new TextError(
+            statement,
+            "a value in the job",
+            `${statement.to} takes ${statement.from}, which only the controller knows.`,
+          );
+        memory.notGiven(`${statement.to} takes ${statement.from}, which only the controller knows.`);
+        memory.forget(statement.to);
+        this.taken.delete(statement.to);
+        break;
+      case "positions":
+        this.combine(statement);
+        break;
+      case "frame": {
+        if (this.notices === undefined)
+          throw new TextError(statement, "UFRAME.CND behind the job", "A user frame that a job works out is not kept.");
+        if (statement.through.some(name => memory.position(name).some(Number.isNaN))) {
+          memory.notGiven(
+            `User frame ${statement.user} is worked out from positions that are in none of the files: it is taken as it was.`,
+          );
+          break;
+        }
+        const points = statement.through.map(name => {
+          const [x, y, z] = memory.known(name);
+          return [x! / PER_MM, y! / PER_MM, z! / PER_MM] as const;
+        });
+        this.state.makeFrame(statement.user, points, statement);
+        break;
+      }
+      case "away":
+        if (statement.when === undefined || this.holds(statement.when, statement)) this.away(statement.what, statement);
+        break;
+      case "shown":
+        this.notices?.add(
+          statement,
+          "an instruction that is executed",
+          `Line ${statement.line} is shown, not executed: ${statement.what}.`,
+        );
         break;
       case "return":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.stack.pop();
@@ -193,13 +271,14 @@ export class Machine {
         this.element(statement);
         break;
       case "here":
-        this.taken.set(statement.position, this.state.here);
+        this.takeHere(statement.position, statement);
         break;
       case "clear":
         memory.clear(statement.from, statement.count);
+        this.taken.delete(statement.from);
         break;
       case "shift": {
-        const [x, y, z, rx, ry, rz] = memory.position(statement.position);
+        const [x, y, z, rx, ry, rz] = memory.known(statement.position);
         const { baseFromFrame } = this.state.frameOf(statement.frame, statement.user, statement);
         this.state.shift = {
           baseFromFrame,
@@ -221,7 +300,7 @@ export class Machine {
   }
 
   private arithmetic({ word, to, by, ...at }: Extract<Statement, { kind: "arithmetic" }>): void {
-    const a = this.memory.value({ kind: "variable", name: to });
+    const a = word === "SET" ? 0 : this.memory.value({ kind: "variable", name: to });
     const b = this.memory.value(by);
     if (word === "DIV" && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
     this.memory.set(
@@ -234,16 +313,82 @@ export class Machine {
   private element({ get, position, element, with: operand, ...at }: Extract<Statement, { kind: "element" }>): void {
     if (element > ELEMENTS)
       throw new TextError(at, `an element from 1 to ${ELEMENTS}`, `A position has no element ${element}.`);
-    const values = this.memory.position(position);
     if (!get) {
-      values[element - 1] = this.memory.value(operand);
+      this.memory.position(position)[element - 1] = this.memory.value(operand);
+      this.taken.delete(position);
       return;
     }
-    if (operand.kind === "variable") this.memory.set(operand.name, values[element - 1]!, at);
+    if (operand.kind === "variable") this.memory.set(operand.name, this.memory.known(position)[element - 1]!, at);
   }
 
-  private call(name: string, at: TextPlace): void {
+  /** SET, ADD and SUB of a position variable by another, element by element. */
+  private combine({ word, to, by }: Extract<Statement, { kind: "positions" }>): void {
+    const { memory } = this;
+    const given = memory.position(by);
+    this.taken.delete(to);
+    if (word === "SET") {
+      const taken = this.taken.get(by);
+      if (taken !== undefined) this.taken.set(to, taken);
+      return memory.setPosition(to, given, memory.kindOf(by));
+    }
+    const kind = memory.kindOf(to) ?? memory.kindOf(by);
+    const values = memory.position(to).map((value, i) => (word === "ADD" ? value + given[i]! : value - given[i]!));
+    memory.setPosition(to, values, kind);
+  }
+
+  /** GETS PX: the variable holds where the robot is. */
+  private takeHere(name: string, at: TextPlace): void {
+    if (this.notices !== undefined && this.state.isLost) {
+      this.memory.forget(name);
+      this.taken.delete(name);
+      return;
+    }
+    this.taken.set(name, this.state.here);
+    if (this.notices === undefined) return;
+    const { values, ...kind } = this.state.standing("BASE", 0, 0, at);
+    this.memory.setPosition(
+      name,
+      values.map((value, i) => Math.round(value * (i < 3 ? PER_MM : PER_DEG))),
+      { ...kind, values },
+    );
+  }
+
+  /** What is done in the controller may move the robot: where it stands afterwards is not known. */
+  private away(what: string, at: TextPlace): void {
+    if (this.notices === undefined)
+      throw new TextError(at, "an instruction of this job", `What ${what} does is not known here.`);
+    this.memory.notGiven(`What ${what} does, motions too, is not executed.`);
+    this.state.isLost = true;
+  }
+
+  /** A wait for one line, or until its time is over, after which the job goes on all the same. */
+  private wait(statement: Extract<Statement, { kind: "wait" }>, done: (step: Step) => void, id: () => string): void {
+    const { memory } = this;
+    const { when, s, ...at } = statement;
+    if (s === undefined && (when.more === undefined || this.notices === undefined)) {
+      if (this.notices === undefined || when.left.kind === "line")
+        return done({ id: id(), type: "wait-for", when: memory.awaited(when, at) });
+    }
+    if (this.notices === undefined)
+      throw new TextError(
+        at,
+        "a wait without an end",
+        "After the time of T= the job goes on as if nothing were missing: that is not understood here.",
+      );
+    if (this.holds(when, at)) return done({ id: id(), type: "wait", s: 0 });
+    if (s !== undefined) return done({ id: id(), type: "wait", s: Math.max(0, memory.value(s)) });
+    this.notices.add(
+      at,
+      "IN#(n)=ON or =OFF",
+      `Line ${at.line} waits for what nothing here makes true: the job goes on as if it were.`,
+    );
+    done({ id: id(), type: "wait", s: 0 });
+  }
+
+  private call({ job: name, args = [] }: Extract<Statement, { kind: "call" }>, at: TextPlace): void {
     const job = this.source.jobs.get(name);
+    if (job === undefined && this.notices !== undefined)
+      return this.away(`the job ${name}, which is not among the files,`, at);
     if (job === undefined) throw new TextError(at, "a job of this text", `Job ${name} is not in this text.`);
     if (this.stack.length >= CALL_DEPTH)
       throw new TextError(
@@ -251,16 +396,47 @@ export class Machine {
         `at most ${CALL_DEPTH} calls inside each other`,
         `Job ${name} is called more than ${CALL_DEPTH} deep.`,
       );
-    this.stack.push(newFrame(job));
+    this.stack.push(
+      newFrame(
+        job,
+        args.map(value => this.memory.value(value)),
+      ),
+    );
   }
 
   // Motion
   // --------------------------------------------------------------------------------------------------------------
 
-  private move(move: Extract<Statement, { kind: "move" }>, frame: Frame): void {
+  /** A motion with the speed that its variable says. */
+  private withSpeed(move: Extract<Statement, { kind: "move" }>): Extract<Statement, { kind: "move" }> {
+    const { speedIn } = move;
+    if (speedIn === undefined) return move;
+    const read = (of: Operand | undefined, per: number, planned: number, unit: string): number | undefined => {
+      if (of === undefined) return undefined;
+      const value = this.memory.value(of) / per;
+      if (value > 0 || this.notices === undefined) return value;
+      this.memory.notGiven(
+        `The speed of line ${move.line} is in none of the files: it is planned at ${planned} ${unit}.`,
+      );
+      return planned;
+    };
+    return { ...move, v: read(speedIn.v, 10, 100, "mm/s") ?? move.v, vj: read(speedIn.vj, 100, 10, "%") ?? move.vj };
+  }
+
+  private move(given: Extract<Statement, { kind: "move" }>, frame: Frame): void {
+    const move = this.withSpeed(given);
     const taken = this.taken.get(move.position);
-    if (taken !== undefined) return this.begin(move, taken);
-    const position = this.positionOf(move, frame);
+    if (taken !== undefined && (this.notices === undefined || move.motion === "MOVC" || move.motion === "MOVS"))
+      return this.begin(move, taken);
+    const missing = this.missing(move, frame);
+    if (missing !== undefined) {
+      this.endArc(move);
+      this.memory.notGiven(`${missing}: the motion is not executed.`);
+      this.state.isLost = true;
+      return this.note(move);
+    }
+    this.further(move, frame);
+    const position = move.by === undefined ? this.positionOf(move, frame) : this.incremented(move, move.by, frame);
     if (move.motion !== "MOVC") this.endArc(move);
     if (move.motion !== "MOVS") this.inCurve = false;
     switch (move.motion) {
@@ -359,9 +535,66 @@ export class Machine {
     return true;
   }
 
+  /** What of a motion only the controller knows; undefined where all of it is known. */
+  private missing(move: Move & TextPlace, frame: Frame): string | undefined {
+    if (this.notices === undefined) return undefined;
+    const { position } = move;
+    if (position.startsWith("C")) {
+      // A position that was never taught stays empty.
+      if (!frame.job.positions.has(position)) return undefined;
+    } else {
+      const given = this.memory.given(position);
+      const taught = frame.job.positions.get(position) ?? this.globalPosition(position);
+      if (given === undefined && taught === undefined) return `${position} is in none of the files`;
+      if (given?.values.some(Number.isNaN) === true) return `${position} is in none of the files`;
+    }
+    const startsHere = move.by !== undefined || move.motion === "MOVC" || move.motion === "MOVS";
+    return this.state.isLost && startsHere ? "Where the robot stands before it is not known" : undefined;
+  }
+
+  /** Further axes are named and not moved; a motion that follows what they carry is refused when they go on. */
+  private further(move: Move & TextPlace, { job }: Frame): void {
+    const others = (move.others ?? [])
+      .join(" ")
+      .replace(/\b(?:BC|EC)[0-9]+/g, name => job.others.get(positionKey(name)) ?? name);
+    if (others !== "")
+      this.notices?.add(
+        move,
+        "the axes of one arm",
+        `Further axes go with the motion of line ${move.line} and are not moved: ${move.others!.join(", ")}.`,
+      );
+    if (others !== "" && this.notices === undefined)
+      throw new TextError(
+        move,
+        "positions of the robot alone",
+        "Positions of a track or a station are not understood here.",
+      );
+    if (move.follows === true && this.others !== undefined && others !== this.others)
+      throw new TextError(
+        move,
+        "a motion along a station that stands still",
+        `With SMOV the robot follows the station, which goes from ${standing(this.others)} to ${standing(others)}: stations are not moved here.`,
+      );
+    this.others = others;
+  }
+
+  /** IMOV: from where the robot stands, along the axes of a frame or of the tool. */
+  private incremented(move: Move & TextPlace, by: NonNullable<Move["by"]>, frame: Frame): Position {
+    const amount = this.positionOf(move, frame);
+    if (amount.type === "PULSE" || amount.type === "ANGLE")
+      throw new TextError(move, "an amount in X, Y, Z", "IMOV by the axes is not executed here.");
+    if (this.notices === undefined)
+      throw new TextError(move, "a position", "IMOV moves by an amount: write the position.");
+    const type = by.frame === "TOOL" ? "BASE" : by.frame;
+    const from = this.state.standing(type, by.user, amount.tool, move);
+    return this.state.movedBy(from, amount.values, by.frame === "TOOL", move);
+  }
+
   private positionOf({ position, ...at }: Move & TextPlace, { job }: Frame): Position {
+    const given = position.startsWith("C") ? undefined : this.memory.given(position);
+    if (given !== undefined) return given;
     const own = job.positions.get(position);
-    const isVariable = position.startsWith("P");
+    const isVariable = !position.startsWith("C");
     const anywhere = own ?? (isVariable ? this.globalPosition(position) : undefined);
     if (anywhere === undefined)
       throw new TextError(at, "a position of this job", `Position ${position} is not in job ${job.name}.`);
@@ -407,6 +640,7 @@ export class Machine {
   }
 
   private spend(at: TextPlace): void {
+    this.memory.at = at;
     if (++this.idle <= INSTRUCTIONS_WITHOUT_MOTION) return;
     if (this.memory.asked) throw new WaitsOutside(at, "job");
     throw new TextError(
@@ -417,4 +651,6 @@ export class Machine {
   }
 }
 
-const newFrame = (job: Job): Frame => ({ job, at: 0, last: [], step: [] });
+const newFrame = (job: Job, args: readonly number[] = []): Frame => ({ job, at: 0, last: [], step: [], args });
+/** Where a station stands, or that it is not said. */
+const standing = (others: string): string => (others === "" ? "where it was" : others);

@@ -4,8 +4,10 @@ import {
   compose,
   distance,
   flangePose,
+  fromMatrix,
   identity,
   inverse,
+  toYaskawaRxyz,
   type MoveStep,
   type Pose,
   type Robot,
@@ -14,7 +16,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, type Notices } from "../../parser/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
 import { BORDERS, poseOf, type Arm } from "./arm.ts";
 
@@ -51,6 +53,9 @@ export class ControllerState {
   private readonly pulses: readonly number[] | undefined;
   private readonly worldFromVendor: Pose<"world", "vendor-world">;
   private readonly baseFromVendor: Pose<"base", "vendor-world">;
+  private readonly notices: Notices | undefined;
+  /** The robot went where nobody here knows. */
+  isLost = false;
   private axes_deg: readonly number[];
   private baseFromFlange: Pose<"base", "flange">;
 
@@ -61,7 +66,9 @@ export class ControllerState {
     worldFromBase: Pose<"world", "base">,
     context: Context,
     pulses: readonly number[] | undefined,
+    notices?: Notices,
   ) {
+    this.notices = notices;
     this.robot = robot;
     this.arm = arm;
     this.source = source;
@@ -76,6 +83,28 @@ export class ControllerState {
   /** Where the robot is sent, to be compared with later. */
   get here(): Pose<"base", "flange"> {
     return this.baseFromFlange;
+  }
+
+  /** Where the tool stands now, as a position of a frame: X, Y, Z [mm], Rx, Ry, Rz [deg]. */
+  standing(type: "BASE" | "ROBOT" | "USER", user: number, tool: number, at: TextPlace): Position {
+    const { baseFromFrame } = this.frameOf(type, user, at);
+    const { flangeFromTcp } = this.toolOf({ ...at, type, user, tool, values: [], rconf: [] }, at);
+    const { position, quaternion } = compose(
+      inverse(baseFromFrame),
+      compose(this.baseFromFlange, flangeFromTcp),
+    ) as Pose;
+    const values = [...position.map(value => value * 1000), ...toYaskawaRxyz(quaternion)];
+    return { ...at, type, user, tool, values, rconf: [] };
+  }
+
+  /** A position that is moved along the axes of its frame, or of its tool. */
+  movedBy(from: Position, by: readonly number[], inTool: boolean, at: TextPlace): Position {
+    const frameFromTcp = poseOf(from.values);
+    const step = poseOf([by[0]!, by[1]!, by[2]!, 0, 0, 0]);
+    if (by.slice(3, 6).some(angle => angle !== 0))
+      throw new TextError(at, "an amount that does not turn", "IMOV with a turn of the tool is not executed here.");
+    const { position, quaternion } = inTool ? compose(frameFromTcp, step) : compose(step, frameFromTcp);
+    return { ...from, values: [...position.map(value => value * 1000), ...toYaskawaRxyz(quaternion)] };
   }
 
   /** Whether the robot is there already: arcs and curves begin with the point before them once more. */
@@ -96,7 +125,8 @@ export class ControllerState {
     if (move.vj !== undefined) this.speed.vj = percent(move.vj, at);
     if (move.v !== undefined) this.speed.v_mps = positive(move.v, at) / 1000;
     const speed: Speed = path === "ptp" ? { ratio: this.speed.vj / 100 } : { mps: this.speed.v_mps };
-    const target = position.type === "PULSE" ? this.toPulses(position, at) : this.toPlace(position, at);
+    this.isLost = false;
+    const target = isAxes(position) ? this.toPulses(position, at) : this.toPlace(position, at);
     return {
       id,
       type: "move",
@@ -118,11 +148,41 @@ export class ControllerState {
     return LEVELS_M[Math.min(pl, LEVELS_M.length - 1)]!;
   }
 
+  /** User frames that the job worked out itself. */
+  private readonly made = new Map<number, Frame>();
+
+  /** MFRAME: the origin, a point on the x axis and one on the side of y [mm], from the base. */
+  makeFrame(number: number, [origin, onX, onXy]: readonly (readonly [number, number, number])[], at: TextPlace): void {
+    const minus = (a: readonly number[], b: readonly number[]): number[] => a.map((value, i) => value - b[i]!);
+    const cross = ([a, b, c]: readonly number[], [d, e, f]: readonly number[]): number[] => [
+      b! * f! - c! * e!,
+      c! * d! - a! * f!,
+      a! * e! - b! * d!,
+    ];
+    const unit = (v: readonly number[]): number[] => {
+      const length = Math.hypot(...v);
+      if (!(length > 1e-6))
+        throw new TextError(at, "three positions apart", `The positions of user frame ${number} are on one line.`);
+      return v.map(value => value / length);
+    };
+    const x = unit(minus(onX!, origin!));
+    const z = unit(cross(x, minus(onXy!, origin!)));
+    const y = cross(z, x);
+    const turn = fromMatrix([x[0]!, y[0]!, z[0]!, x[1]!, y[1]!, z[1]!, x[2]!, y[2]!, z[2]!]);
+    this.made.set(number, { number, name: "", values: [...origin!, ...toYaskawaRxyz(turn)] });
+  }
+
   frameOf(
     type: Position["type"],
     user: number,
     at: TextPlace,
   ): { readonly name: string; readonly baseFromFrame: Pose<"base", "frame"> } {
+    if (type === "TOOL")
+      throw new TextError(
+        at,
+        "a position of BASE, ROBOT or USER",
+        "A position that counts from the tool is not executed here.",
+      );
     if (type !== "USER") return { name: "world", baseFromFrame: this.baseFromVendor as Pose as Pose<"base", "frame"> };
     const frame = this.listed(this.source.users, user, "User frame", at);
     const vendorFromFrame = poseOf<"vendor-world", "frame">(frame.values);
@@ -142,6 +202,7 @@ export class ControllerState {
   }
 
   private axesOf(position: Position, at: TextPlace): number[] {
+    if (position.type === "ANGLE") return this.arm.degrees(this.robot.home_rad).map((_, i) => position.values[i] ?? 0);
     if (this.pulses === undefined)
       throw new TextError(
         position,
@@ -169,7 +230,13 @@ export class ControllerState {
       all.find(axes => this.arm.isOfType(axes, position.rconf, border));
     const taken = ofType(BORDERS.exact) ?? ofType(BORDERS.written);
     if (taken === undefined) {
-      if (this.shift === undefined)
+      if (this.shift === undefined && this.notices !== undefined)
+        this.notices.add(
+          at,
+          "a manipulator type that the point can be reached with",
+          `Line ${at.line}: this robot does not reach the point as RCONF ${position.rconf.slice(0, 6).join(",")}; the nearest posture is taken.`,
+        );
+      else if (this.shift === undefined)
         throw new TextError(
           at,
           "a manipulator type that the point can be reached with",
@@ -183,13 +250,13 @@ export class ControllerState {
     const branch = branchOf(this.robot, q);
     // The nearest turn of that posture is what a pose means; another one can only be said by the axes themselves.
     const nearest = all.find(axes => sameBranch(branchOf(this.robot, this.arm.radians(axes)), branch));
-    return nearest === taken || position.type === "PULSE"
+    return nearest === taken || isAxes(position)
       ? { ...place, ...(branch === undefined ? {} : { branch }) }
       : { q, tool: place.tool };
   }
 
   private flangeOf(position: Position, at: TextPlace): Pose<"base", "flange"> {
-    if (position.type === "PULSE") return flangePose(this.robot.arm, this.arm.radians(this.axesOf(position, at)));
+    if (isAxes(position)) return flangePose(this.robot.arm, this.arm.radians(this.axesOf(position, at)));
     return compose(this.baseFromTcp(position, at), inverse(this.toolOf(position, at).flangeFromTcp));
   }
 
@@ -206,7 +273,7 @@ export class ControllerState {
 
   private place(position: Position, at: TextPlace): Extract<Target, { readonly pose: unknown }> {
     const tool = this.toolOf(position, at);
-    if (position.type === "PULSE") {
+    if (isAxes(position)) {
       const tip = compose(
         compose(this.worldFromVendor, inverse(this.baseFromVendor)),
         compose(this.flangeOf(position, at), tool.flangeFromTcp),
@@ -239,12 +306,20 @@ export class ControllerState {
   }
 
   private listed(list: ReadonlyMap<number, Frame>, number: number, what: string, at: TextPlace): Frame {
-    const frame = list.get(number);
-    if (frame === undefined && number !== 0) this.assumed.set(`${what} ${number}`, at);
+    const frame = (what === "Tool" ? undefined : this.made.get(number)) ?? list.get(number);
+    if (frame === undefined && number !== 0) {
+      this.assumed.set(`${what} ${number}`, at);
+      this.notices?.notGiven(at, keptOnController(`${what} ${number}`));
+    }
     const { name = "", values = [0, 0, 0, 0, 0, 0] } = frame ?? {};
     return { number, name: name === "" ? `${what === "Tool" ? "tool" : "user"} ${number}` : name, values };
   }
 }
+
+/** Whether a position says the axes themselves. */
+const isAxes = ({ type }: Position): boolean => type === "PULSE" || type === "ANGLE";
+/** What is taken of a tool or frame whose file is not there. */
+export const keptOnController = (name: string): string => `${name} is kept on the controller: it is taken to be 0.`;
 
 const sameBranch = (a: ReturnType<typeof branchOf>, b: ReturnType<typeof branchOf>): boolean =>
   a?.shoulder === b?.shoulder && a?.elbow === b?.elbow && a?.wrist === b?.wrist;

@@ -15,6 +15,9 @@ export class Controller {
   private readonly place: WalkedPlace;
   private readonly tools = new Map<string, number>([["flange", 0]]);
   private readonly users = new Map<string, number>();
+  private readonly variables = new Map<string, string>();
+  /** Variables for what is computed on the way. */
+  readonly spare: string[] = [];
   private readonly used: Record<"I" | "D" | "P", number> = { I: 0, D: 0, P: 0 };
 
   constructor(place: WalkedPlace) {
@@ -26,6 +29,15 @@ export class Controller {
   }
   user(name: string): number {
     return this.numbered(this.users, name, this.users.size + 1, "user frames");
+  }
+
+  /** The variable that a variable of the program has become; all jobs share it. */
+  named(name: string): string {
+    const known = this.variables.get(name);
+    if (known !== undefined) return known;
+    const made = this.variable("D");
+    this.variables.set(name, made);
+    return made;
   }
 
   variable(letter: "I" | "D" | "P"): string {

@@ -1,7 +1,11 @@
 import {
   compose,
   distance,
+  expressionOf,
+  isCondition,
+  isPassedOver,
   type Condition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PalletStep,
@@ -16,6 +20,7 @@ import type { Controller } from "./controller.ts";
 import { fixed } from "./location.ts";
 import { commentText, titleText } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
+import { Computing } from "./computing.ts";
 import { Points, type Arrival } from "./points.ts";
 import type { WalkedPlace } from "../../emitter/index.ts";
 import type { ConfigurationMap } from "./postures.ts";
@@ -45,6 +50,7 @@ export class JobWriter {
   private readonly isMain: boolean;
   private arrival: Arrival | undefined;
   private here: string | undefined;
+  private readonly computing: Computing;
   private shift = "";
   private group = "";
   private labels = 0;
@@ -54,6 +60,15 @@ export class JobWriter {
     this.isMain = isMain;
     const { place, controller, convention, pulses } = setting;
     this.points = new Points(place, controller, convention, pulses);
+    this.computing = new Computing(
+      place.program,
+      controller,
+      controller.spare,
+      () => this.label(),
+      (line, step) => {
+        this.out.add(line, step);
+      },
+    );
   }
 
   write(name: string, title: string, steps: readonly Step[]): EmittedFile {
@@ -82,11 +97,11 @@ export class JobWriter {
 
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (const [i, step] of steps.entries()) {
-      const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
+      const next = steps.slice(i + 1).find(each => !isPassedOver(each)) ?? after;
       this.step(
         step,
         next,
-        steps.slice(0, i).findLast(({ type }) => type !== "comment"),
+        steps.slice(0, i).findLast(each => !isPassedOver(each)),
       );
     }
   }
@@ -106,7 +121,7 @@ export class JobWriter {
       case "set":
         return add(this.set(step));
       case "wait-for":
-        return add(`WAIT ${this.condition(step.when)}`);
+        return add(`WAIT ${this.asked(step.when)}`);
       case "message":
         return add(`MSG "${commentText(step.text.replace(/"/g, "'"))}"`);
       case "stop":
@@ -121,9 +136,10 @@ export class JobWriter {
       case "repeat":
         return this.repeat(step.id, step.times, step.steps);
       case "if":
+        if (!isCondition(step.when)) return this.decision(step, next);
         this.block(
           step.id,
-          `IFTHENEXP ${this.condition(step.when)}`,
+          `IFTHENEXP ${this.asked(step.when)}`,
           step.then,
           next,
           step.else === undefined ? "ENDIF" : "",
@@ -132,15 +148,42 @@ export class JobWriter {
         return;
       case "pallet":
         return this.pallet(step);
+      case "assign":
+        return this.computing.assign(step);
+      case "while":
+        return this.whileLoop(step);
       // Refused before.
       case "payload":
         return;
     }
   }
 
+  /** A label, a jump out of it and a jump back. */
+  private whileLoop(step: Extract<Step, { type: "while" }>): void {
+    const [again, done] = [this.label(), this.label()];
+    this.shiftOff(step.id);
+    this.out.add(again, step.id);
+    this.computing.unless(expressionOf(step.when), done, step);
+    this.block(step.id, "", step.steps, undefined, `JUMP ${again}`);
+    this.out.add(done, step.id);
+  }
+
+  private decision(step: Extract<Step, { type: "if" }>, next: Step | undefined): void {
+    const [otherwise, done] = [this.label(), this.label()];
+    this.shiftOff(step.id);
+    this.computing.unless(expressionOf(step.when), otherwise, step);
+    this.block(step.id, "", step.then, next, step.else === undefined ? "" : `JUMP ${done}`);
+    this.out.add(otherwise, step.id);
+    if (step.else !== undefined) this.block(step.id, "", step.else, next, done);
+  }
+
+  private label(): string {
+    return `*ROUND${++this.labels}`;
+  }
+
   private repeat(id: string, times: number | "forever", steps: readonly Step[]): void {
     if (times === "forever") {
-      const label = `*ROUND${++this.labels}`;
+      const label = this.label();
       return this.block(id, label, steps, undefined, `JUMP ${label}`);
     }
     const counter = this.setting.controller.variable("I");
@@ -150,7 +193,7 @@ export class JobWriter {
   /** A block is entered and left from several sides. */
   private block(id: string, head: string, steps: readonly Step[], after: Step | undefined, end: string): void {
     this.shiftOff(id);
-    this.out.add(head, id);
+    if (head !== "") this.out.add(head, id);
     this.arrival = undefined;
     this.group = "";
     this.steps(steps, after);
@@ -195,6 +238,10 @@ export class JobWriter {
     return pulse_s === undefined
       ? `DOUT OT#(${address}) ${to ? "ON" : "OFF"}`
       : `PULSE OT#(${address}) T=${fixed(Math.max(0.01, pulse_s), 2)}`;
+  }
+
+  private asked(when: Predicate): string {
+    return isCondition(when) ? this.condition(when) : "";
   }
 
   private condition(when: Condition, opposite = false): string {
@@ -285,7 +332,7 @@ export class JobWriter {
 
   private goesOn(next: Step | undefined): boolean {
     const inside = (steps: readonly Step[] | undefined): boolean =>
-      this.goesOn(steps?.find(({ type }) => type !== "comment"));
+      this.goesOn(steps?.find(each => !isPassedOver(each)));
     switch (next?.type) {
       case undefined:
         return !this.isMain;

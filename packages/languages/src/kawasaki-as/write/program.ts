@@ -5,7 +5,9 @@ import {
   inverse,
   rotate,
   type Branch,
+  isCondition,
   type Condition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type Pose,
@@ -18,12 +20,16 @@ import {
 import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
+  PENDANT_UNITS,
   UnsupportedStep,
   Names,
   Place,
+  assignText,
   called,
+  expressionText,
   patternOf,
   pitchTerm,
+  type ExpressionWords,
   type Pattern,
   shownAxes,
 } from "../../emitter/index.ts";
@@ -131,7 +137,7 @@ export class ProgramWriter extends BlockStepWriter {
       case "set":
         return this.set(step, add);
       case "wait-for":
-        return add(`SWAIT ${this.line(step.when, step)}`);
+        return add(`SWAIT ${this.waited(step.when, step)}`);
       case "payload":
         return add(`WEIGHT ${this.load(step)}`);
       case "message":
@@ -140,13 +146,17 @@ export class ProgramWriter extends BlockStepWriter {
         return add("HALT");
       case "comment":
         return add(`;- ${asciiText(step.text)}`.trimEnd());
+      case "assign":
+        return add(assignText(step, " = ", this.words, this.place.program));
+      case "while":
+        return this.loop(`WHILE ${this.asked(step.when, step)} DO`, "END", step);
       case "call":
         add(`CALL ${this.named("routine", step.routine)}`);
         return this.begin();
       case "repeat":
         return this.repeat(step);
       case "if":
-        return this.choice(step, `IF SIG(${this.line(step.when, step)}) THEN`, "ELSE", "END");
+        return this.choice(step, `IF ${this.asked(step.when, step)} THEN`, "ELSE", "END");
       case "pallet":
         return this.pallet(step);
     }
@@ -237,6 +247,52 @@ export class ProgramWriter extends BlockStepWriter {
       );
     if (step.pulse_s === undefined) return add(`SIGNAL ${to ? "" : "-"}${name}`);
     add(`PULSE ${to ? "" : "-"}${name},${num(step.pulse_s)}`);
+  }
+
+  private readonly words: ExpressionWords = {
+    truth: ["0", "-1"],
+    number: num,
+    variable: name => this.named("variable", name),
+    truthVariable: name => `${this.named("variable", name)} <> 0`,
+    line: (signal, step, isDigital) =>
+      isDigital ? `SIG(${this.named("signal", signal)})` : this.line({ signal, above: 0 }, step),
+    not: inner => `NOT ${inner}`,
+    signs: {
+      and: " AND ",
+      or: " OR ",
+      "=": " == ",
+      "<>": " <> ",
+      "<": " < ",
+      "<=": " <= ",
+      ">": " > ",
+      ">=": " >= ",
+      "+": " + ",
+      "-": " - ",
+      "*": " * ",
+      "/": " / ",
+      mod: " MOD ",
+      div: (a, b) => `INT(${a} / ${b})`,
+    },
+    calls: {
+      abs: x => `ABS(${x})`,
+      sqrt: x => `SQRT(${x})`,
+      sin: x => `SIN(${x})`,
+      cos: x => `COS(${x})`,
+      trunc: x => `INT(${x})`,
+    },
+    scale: PENDANT_UNITS,
+  };
+
+  /** A condition of IF and WHILE. */
+  private asked(when: Predicate, step: Step): string {
+    return isCondition(when)
+      ? `SIG(${this.line(when, step)})`
+      : expressionText(when.expression, this.words, this.place.program, step);
+  }
+
+  private waited(when: Predicate, step: Step): string {
+    if (isCondition(when)) return this.line(when, step);
+    throw new UnsupportedStep(step.id, `${called(step)} waits for an expression.`, "Wait for one line.");
   }
 
   /** The line of a condition, with a minus where it shall be off. */

@@ -1,4 +1,5 @@
-import type { Program, Step } from "@twincell/core";
+import { listsOf, type Program, type Step } from "@twincell/core";
+import { linesLookedAt } from "../../emitter/index.ts";
 
 /** Tools, frames and lines in the order in which steps first use them. */
 export interface Used {
@@ -32,24 +33,13 @@ export function usedNames(program: Program): Used {
         case "set":
           note(step.signal, step);
           break;
-        case "wait-for":
-          note(step.when.signal, step);
-          break;
-        case "if":
-          note(step.when.signal, step);
-          look(step.then);
-          look(step.else ?? []);
-          break;
-        case "repeat":
-          look(step.steps);
-          break;
         case "pallet":
           if (Object.hasOwn(program.pallets, step.pallet)) frame(program.pallets[step.pallet]!.frame);
-          look(step.steps);
           break;
         default:
-          break;
+          for (const signal of linesLookedAt(step)) note(signal, step);
       }
+      for (const inner of listsOf(step)) look(inner);
     }
   };
   for (const steps of [program.steps, ...Object.values(program.routines)]) look(steps);

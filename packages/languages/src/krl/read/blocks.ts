@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { JumpBuilder, type JumpRules, type SwitchWords } from "../../parser/index.ts";
+import { JumpBuilder, TextError, type JumpRules, type SwitchWords } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { readExpression, readVariable } from "./expression.ts";
 import { readStatement } from "./statement.ts";
@@ -28,9 +28,11 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
   readonly declarations: Declaration[] = [];
   private readonly place: TextPlace;
   private readonly parameters: readonly Parameter[];
+  private readonly module: string;
 
-  constructor(name: string, place: TextPlace, isFunction: boolean, parameters: readonly Parameter[]) {
+  constructor(name: string, module: string, place: TextPlace, isFunction: boolean, parameters: readonly Parameter[]) {
     super(name, RULES);
+    this.module = module;
     this.place = place;
     this.isFunction = isFunction;
     this.parameters = parameters;
@@ -84,8 +86,26 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
   /** @throws {TextError} for a block without its end, or a GOTO to a label that is not there. */
   finish(end: TextPlace): Routine {
     this.close(end);
-    const { name, place, isFunction, parameters, declarations, slots } = this;
-    return { name, place, isFunction, parameters, declarations, instructions: this.code, slots };
+    const { name, module, place, isFunction, parameters, declarations, slots } = this;
+    return { name, module, place, isFunction, parameters, declarations, instructions: this.code, slots };
+  }
+
+  /** A line that is not understood, in a routine that perhaps nobody comes to. */
+  fault({ line, column, expected, message }: TextError): void {
+    this.code.push({ kind: "statement", statement: { kind: "fault", expected, sentence: message, line, column } });
+  }
+
+  /** Where a block is not closed the whole routine is at fault. */
+  finishOrFault(end: TextPlace): Routine {
+    try {
+      return this.finish(end);
+    } catch (cause) {
+      if (!(cause instanceof TextError)) throw cause;
+      this.code.splice(0);
+      this.fault(cause);
+      const { name, module, place, isFunction, parameters, declarations, slots } = this;
+      return { name, module, place, isFunction, parameters, declarations, instructions: this.code, slots };
+    }
   }
 
   private readLabel(cursor: Cursor): void {

@@ -26,10 +26,11 @@ export function readDeclarations(cursor: Cursor): Declaration[] | undefined {
       return [];
     }
   }
+  if (global) cursor.accept("CONST");
   const spelled = cursor.accept("DECL");
   const isPlain = SIMPLE.has(cursor.next) || (STRUCTURES.has(cursor.next) && cursor.secondKind === "word");
   if (!spelled && !isPlain) return global ? [] : undefined;
-  cursor.accept("GLOBAL");
+  const isGlobal = cursor.accept("GLOBAL") || global;
   cursor.accept("CONST");
   if (QUIET.has(cursor.next)) {
     cursor.skip();
@@ -37,59 +38,89 @@ export function readDeclarations(cursor: Cursor): Declaration[] | undefined {
   }
   const type = cursor.name("a type");
   const list: Declaration[] = [];
-  do list.push(readDeclared(cursor, type));
+  do list.push(readDeclared(cursor, type, isGlobal));
   while (cursor.accept(","));
   cursor.expectEnd();
   return list;
 }
 
-function readDeclared(cursor: Cursor, type: string): Declaration {
+function readDeclared(cursor: Cursor, type: string, isGlobal: boolean): Declaration {
   const { line, column } = cursor.here;
   const name = cursor.name("the name of a variable");
   const index: Expression[] = [];
   checkName(name, { line, column });
   const isArray = cursor.accept("[");
   if (isArray) {
-    if (cursor.next !== "]")
-      do index.push(readExpression(cursor));
-      while (cursor.accept(","));
+    // The parameter of a routine is declared with empty places: `T[,]`.
+    do if (cursor.next !== "," && cursor.next !== "]") index.push(readExpression(cursor));
+    while (cursor.accept(","));
     cursor.expect("]");
   }
   const value = cursor.accept("=") ? readExpression(cursor) : undefined;
-  return { type, name, isArray, index, value, line, column };
+  return { type, name, isGlobal, isArray, index, value, line, column };
 }
 
-const LINES: Readonly<Record<string, SignalDeclaration["wire"]>> = {
+const LINES: Readonly<Record<string, Exclude<SignalDeclaration["wire"], "variable">>> = {
   $IN: "in",
   $OUT: "out",
   $ANIN: "analogue-in",
   $ANOUT: "analogue-out",
 };
 
-/** `SIGNAL NAME $OUT[n]`. @throws {TextError} */
+/**
+ * `SIGNAL NAME $OUT[n]`, `SIGNAL NAME $OUT[n] TO $OUT[m]`, or another name for a system variable.
+ *
+ * @throws {TextError}
+ */
 export function readSignal(cursor: Cursor): SignalDeclaration {
   cursor.take();
   const { line, column } = cursor.here;
   const name = cursor.name("the name of a signal");
   checkName(name, { line, column });
   const at = cursor.here;
-  const kind = LINES[cursor.name("$IN, $OUT, $ANIN or $ANOUT")];
-  if (kind === undefined)
-    throw new TextError(
-      at,
-      "$IN, $OUT, $ANIN or $ANOUT",
-      `Signal ${name} is tied to no line of the controller that is known here.`,
-    );
+  const variable = cursor.name("$IN, $OUT, $ANIN or $ANOUT");
+  const wire = LINES[variable];
+  if (wire === undefined) {
+    if (!variable.startsWith("$"))
+      throw new TextError(
+        at,
+        "$IN, $OUT, $ANIN or $ANOUT",
+        `Signal ${name} is tied to no line of the controller that is known here.`,
+      );
+    const index = cursor.accept("[") ? `[${address(cursor)}]` : "";
+    if (index !== "") cursor.expect("]");
+    cursor.skip();
+    return { name, wire: "variable", address: 0, variable: variable + index, line, column };
+  }
   cursor.expect("[");
+  const first = address(cursor);
+  cursor.expect("]");
+  if (!cursor.accept("TO")) {
+    cursor.expectEnd();
+    return { name, wire, address: first, line, column };
+  }
+  const toAt = cursor.here;
+  if (LINES[cursor.name(variable)] !== wire)
+    throw new TextError(toAt, variable, `The group ${name} goes over lines of one kind.`);
+  cursor.expect("[");
+  const last = address(cursor);
+  cursor.expect("]");
+  cursor.expectEnd();
+  if (last < first || last - first >= MOST_LINES || wire.startsWith("analogue"))
+    throw new TextError(toAt, `up to ${MOST_LINES} digital lines in a row`, `The group ${name} is no row of lines.`);
+  return { name, wire, address: first, last, line, column };
+}
+
+/** The lines that one number can stand for. */
+const MOST_LINES = 32;
+
+function address(cursor: Cursor): number {
   const place = cursor.here;
   if (cursor.nextKind !== "number") throw cursor.unexpected("the number of a line");
-  const address = Number(cursor.take());
-  if (!Number.isInteger(address) || address < 1)
-    throw new TextError(place, "a number from 1", `The controller has no line ${address}.`);
-  cursor.expect("]");
-  if (cursor.next === "TO") throw cursor.unexpected("one line, since groups of lines are not understood here");
-  cursor.expectEnd();
-  return { name, wire: kind, address, line, column };
+  const number = Number(cursor.take());
+  if (!Number.isInteger(number) || number < 1)
+    throw new TextError(place, "a number from 1", `The controller has no line ${number}.`);
+  return number;
 }
 
 /** `NAME( a :IN, b :OUT )`, with the type of the result before the name of a function. */
@@ -112,7 +143,10 @@ export function readHeader(
   if (cursor.accept("(") && !cursor.accept(")")) {
     do {
       const parameter = cursor.name("a parameter");
-      if (cursor.accept("[")) cursor.expect("]");
+      if (cursor.accept("[")) {
+        while (cursor.accept(","));
+        cursor.expect("]");
+      }
       let out = true;
       if (cursor.accept(":")) {
         const way = cursor.name("IN or OUT");

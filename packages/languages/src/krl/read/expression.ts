@@ -81,7 +81,7 @@ function primary(cursor: Cursor, depth: number): Expression {
     case "text":
       return { kind: "text", value: cursor.take().slice(1, -1), line, column };
     case "enum":
-      return { kind: "enum", value: cursor.take().toUpperCase(), line, column };
+      return { kind: "enum", value: cursor.take().toUpperCase().replace(" ", ""), line, column };
     case "word":
       return named(cursor, depth);
     default:

@@ -4,7 +4,7 @@ import { RoutineBuilder } from "./blocks.ts";
 import { Cursor } from "./cursor.ts";
 import { readDeclarations, readHeader, readSignal } from "./declaration.ts";
 import { readStatement } from "./statement.ts";
-import type { Declaration, Routine, SignalDeclaration, Source, Statement } from "./syntax.ts";
+import type { Declaration, Module, Routine, SignalDeclaration, Source, Statement } from "./syntax.ts";
 
 export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
@@ -12,17 +12,27 @@ export type SourceAnswer =
 
 /** More faults than this help nobody. */
 const MOST_FAULTS = 50;
-const QUIET = /^\s*(?:;|&|$)/;
+const QUIET = /^\s*(?:;|$)/;
+/** Stands at the head of every file that the controller keeps. */
+const ATTRIBUTE = /^\s*&/;
+/** What stands in it is known to every module. */
+const SHARED_LIST = "$CONFIG";
 
 /**
- * Reads a module: a .src with or without its .dat behind it, in one text. Attribute lines (`&ACCESS`) and folds are
- * comments. Goes on after a fault, so that all of them are told at once.
+ * Reads modules: each a .src with or without its .dat, in one text, that of the main routine first. A module begins
+ * where attribute lines (`&ACCESS`) do, or with a routine that has a data list of its name. Folds are comments. Goes on
+ * after a fault, so that all of them are told at once.
  */
 export function readSource(text: string): SourceAnswer {
-  const reader = new SourceReader();
+  const lists = Array.from(text.matchAll(/^[ \t]*DEFDAT[ \t]+([\w$]+)/gim), match => match[1]!.toUpperCase());
+  const reader = new SourceReader(new Set(lists));
   const lines = textLines(text);
   for (const [i, line] of lines.entries()) {
     if (QUIET.test(line)) continue;
+    if (ATTRIBUTE.test(line)) {
+      reader.attribute();
+      continue;
+    }
     reader.guard(() => {
       reader.line(line, i + 1);
     });
@@ -32,28 +42,70 @@ export function readSource(text: string): SourceAnswer {
     reader.end(lines.length + 1);
   });
   if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
-  const { routines, data, elements, signals, dataLine } = reader;
-  return { kind: "source", source: { routines, data, elements, signals, dataLine } };
+  const { modules, signals, main } = reader;
+  const shared = new Map<string, Routine>();
+  for (const module of modules.values())
+    for (const [i, routine] of [...module.routines.values()].entries())
+      if ((i === 0 || module.shared.has(routine.name)) && !shared.has(routine.name)) shared.set(routine.name, routine);
+  return { kind: "source", source: { modules, main, shared, signals } };
 }
+
+/** A module that is being read. */
+interface OpenModule extends Module {
+  readonly routines: Map<string, Routine>;
+  readonly data: Declaration[];
+  readonly elements: Extract<Statement, { kind: "assign" }>[];
+  /** Routines that were called GLOBAL. */
+  readonly shared: Set<string>;
+}
+
+const openModule = (name: string): OpenModule => ({
+  name,
+  routines: new Map(),
+  data: [],
+  elements: [],
+  shared: new Set(),
+});
 
 class SourceReader {
   readonly faults: TextFault[] = [];
-  readonly routines = new Map<string, Routine>();
-  readonly data: Declaration[] = [];
-  readonly elements: Extract<Statement, { kind: "assign" }>[] = [];
+  readonly modules = new Map<string, OpenModule>();
   readonly signals: SignalDeclaration[] = [];
-  dataLine: number | undefined;
+  main: Routine | undefined;
+  private readonly lists: ReadonlySet<string>;
+  private current: OpenModule | undefined;
+  private begins = true;
   private section: "outside" | "data" | "routine" = "outside";
   private builder: RoutineBuilder | undefined;
   private opened = 0;
   private word = "";
+
+  /** @param lists  names of the data lists of the text. */
+  constructor(lists: ReadonlySet<string>) {
+    this.lists = lists;
+  }
+
+  /** An attribute line: a file begins. */
+  attribute(): void {
+    if (this.section === "outside") this.begins = true;
+  }
+
+  private module(name: string): OpenModule {
+    const known = this.modules.get(name);
+    if (known !== undefined) return known;
+    const made = openModule(name);
+    this.modules.set(name, made);
+    return made;
+  }
 
   guard(read: () => void): void {
     try {
       read();
     } catch (cause) {
       if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
+      // What is wrong in another file than that of the program matters where it is reached.
+      if (this.isElsewhere && this.current !== undefined) this.builder?.fault(cause);
+      else this.faults.push(cause.fault);
     }
   }
 
@@ -71,7 +123,12 @@ class SourceReader {
       return;
     }
     const declared = readDeclarations(cursor);
-    if (declared !== undefined) (this.section === "data" ? this.data : this.builder!.declarations).push(...declared);
+    if (declared !== undefined)
+      (this.section === "data" ? this.current!.data : this.builder!.declarations).push(
+        ...(this.section === "data" && this.current!.name === SHARED_LIST
+          ? declared.map(each => ({ ...each, isGlobal: true }))
+          : declared),
+      );
     else if (this.section === "data") this.element(cursor);
     else this.builder!.line(cursor);
   }
@@ -81,13 +138,12 @@ class SourceReader {
     if (cursor.second !== "[" && cursor.second !== "=" && cursor.second !== ".")
       throw cursor.unexpected("a declaration");
     const statement = readStatement(cursor);
-    if (statement.kind === "assign") this.elements.push(statement);
+    if (statement.kind === "assign") this.current!.elements.push(statement);
   }
 
   end(line: number): void {
     if (this.section === "outside") {
-      if (this.routines.size === 0 && this.dataLine === undefined)
-        throw new TextError({ line: 1, column: 1 }, "DEF", "The text has no routine.");
+      if (this.modules.size === 0) throw new TextError({ line: 1, column: 1 }, "DEF", "The text has no routine.");
       return;
     }
     throw new TextError(
@@ -101,23 +157,27 @@ class SourceReader {
     if (this.section !== "outside") throw cursor.unexpected(`the end of the ${this.word} of line ${this.opened}`);
     this.word = word;
     this.opened = line;
-    if (cursor.accept("GLOBAL")) {
-      /* Every routine of this text can be called here. */
-    }
+    const isShared = cursor.accept("GLOBAL");
     cursor.take();
     if (word === "DEFDAT") {
       this.section = "data";
-      this.dataLine ??= line;
-      cursor.name("the name of the data list");
+      // Something to put lines into even when the name is at fault.
+      this.current = openModule("");
+      this.current = this.module(cursor.name("the name of the data list"));
+      this.begins = true;
       cursor.accept("PUBLIC");
       return cursor.expectEnd();
     }
     this.section = "routine";
     // Something to put lines into even when the header is at fault.
-    this.builder = new RoutineBuilder("", cursor.here, word === "DEFFCT", []);
+    this.builder = new RoutineBuilder("", "", cursor.here, word === "DEFFCT", []);
     const { name, place, parameters } = readHeader(cursor, word === "DEFFCT");
-    this.builder = new RoutineBuilder(name, place, word === "DEFFCT", parameters);
-    if (this.routines.has(name))
+    if (this.current === undefined || (this.begins && !this.current.routines.has(name)) || this.isOfAnother(name))
+      this.current = this.module(name);
+    this.begins = false;
+    this.builder = new RoutineBuilder(name, this.current.name, place, word === "DEFFCT", parameters);
+    if (isShared) this.current.shared.add(name);
+    if (this.current.routines.has(name))
       throw new TextError(place, "a routine name used once", `Routine ${name} is in the text twice.`);
   }
 
@@ -129,9 +189,19 @@ class SourceReader {
     this.section = "outside";
     this.builder = undefined;
     if (builder !== undefined) {
-      const routine = builder.finish(place);
-      this.routines.set(routine.name, routine);
+      const routine = this.isElsewhere ? builder.finishOrFault(place) : builder.finish(place);
+      this.current?.routines.set(routine.name, routine);
+      this.main ??= routine;
     }
     cursor.expectEnd();
+  }
+
+  private get isElsewhere(): boolean {
+    return this.main !== undefined && this.current?.name !== this.main.module;
+  }
+
+  /** A routine with a data list of its name is the first of its module. */
+  private isOfAnother(name: string): boolean {
+    return this.lists.has(name) && this.current?.name !== name;
   }
 }

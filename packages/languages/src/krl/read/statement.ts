@@ -92,6 +92,42 @@ function pulse(cursor: Cursor): Body<Statement> {
   return { kind: "pulse", output, to, time };
 }
 
+/**
+ * `TRIGGER WHEN DISTANCE=0 DELAY=20 DO $OUT[1]=TRUE`, `TRIGGER WHEN PATH=-5 ONSTART DELAY=0 DO GLUE( ) PRIO=-1`: what
+ * is done at a point of the next motion.
+ */
+function trigger(cursor: Cursor): Body<Statement> {
+  cursor.expect("WHEN");
+  const where = cursor.name("DISTANCE or PATH");
+  if (where !== "DISTANCE" && where !== "PATH")
+    throw cursor.unexpected("DISTANCE or PATH, since nothing else is understood here");
+  cursor.expect("=");
+  const value = readExpression(cursor);
+  const onStart = cursor.accept("ONSTART");
+  let delay: Expression | undefined;
+  if (cursor.accept("DELAY")) {
+    cursor.expect("=");
+    delay = readExpression(cursor);
+  }
+  cursor.expect("DO");
+  const action = readStatement(cursor, true);
+  if (action.kind !== "assign" && action.kind !== "call" && action.kind !== "pulse")
+    throw new TextError(action, "an assignment, a pulse or a call", "TRIGGER does something else than this.");
+  if (cursor.accept("PRIO")) {
+    cursor.expect("=");
+    readExpression(cursor);
+  }
+  const isPath = where === "PATH";
+  return {
+    kind: "trigger",
+    distance: isPath ? undefined : value,
+    onStart,
+    path: isPath ? value : undefined,
+    delay,
+    action,
+  };
+}
+
 /** `INTERRUPT DECL n WHEN condition DO routine( )`, `INTERRUPT ON n`, `INTERRUPT OFF n`. */
 function interrupt(cursor: Cursor): Body<Statement> {
   if (cursor.accept("DECL")) {
@@ -127,6 +163,7 @@ const READERS: Readonly<Record<string, Reader>> = {
   ENDSPLINE: cursor => ({ kind: "end-spline", approximation: approximations(cursor) }),
   WAIT: waiting,
   PULSE: pulse,
+  TRIGGER: trigger,
   INTERRUPT: interrupt,
   BRAKE: cursor => {
     cursor.accept("F");
@@ -146,19 +183,22 @@ const READERS: Readonly<Record<string, Reader>> = {
 const REFUSED: Readonly<Record<string, string>> = {
   CIRC_REL: "A relative arc is not understood here: write its points as positions.",
   SCIRC_REL: "A relative arc is not understood here: write its points as positions.",
-  TRIGGER: "TRIGGER acts on the way between two points, which a list of steps cannot say.",
   PTP_SPLINE: "A block of joint splines is not understood here.",
   TIME_BLOCK: "TIME_BLOCK gives parts of a spline their duration, which is not understood here.",
 };
 
-/** One statement that moves, sets or waits; control words (IF, FOR, …) are read by `blocks.ts`. */
-export function readStatement(cursor: Cursor): Statement {
+/**
+ * One statement that moves, sets or waits; control words (IF, FOR, …) are read by `blocks.ts`.
+ *
+ * @param isInside  it is part of a longer line.
+ */
+export function readStatement(cursor: Cursor, isInside = false): Statement {
   const { line, column } = cursor.here;
   if (cursor.nextKind !== "word") throw cursor.unexpected("a statement");
   const word = cursor.next;
   const after = cursor.second;
   // A name followed by = is assigned to, even where it is also a word of the language.
-  if (after === "=" || after === "[" || after === ".") return { ...assignment(cursor), line, column };
+  if (after === "=" || after === "[" || after === ".") return { ...assignment(cursor, isInside), line, column };
   if (word === "GLOBAL" && after === "INTERRUPT") cursor.take();
   const reader = READERS[cursor.next];
   if (reader === undefined && after !== "(") {
@@ -170,15 +210,15 @@ export function readStatement(cursor: Cursor): Statement {
   }
   const name = cursor.name();
   const body = reader === undefined ? call(name, cursor) : reader(cursor);
-  cursor.expectEnd();
+  if (!isInside) cursor.expectEnd();
   return { ...body, line, column };
 }
 
-function assignment(cursor: Cursor): Body<Statement> {
+function assignment(cursor: Cursor, isInside: boolean): Body<Statement> {
   const to = readVariable(cursor);
   cursor.expect("=");
   const value = readExpression(cursor);
   if (cursor.next === "=") throw cursor.unexpected('"==" for a comparison');
-  cursor.expectEnd();
+  if (!isInside) cursor.expectEnd();
   return { kind: "assign", to, value };
 }

@@ -63,26 +63,45 @@ export type Statement = TextPlace &
     | { readonly kind: "interrupt-switch"; readonly on: boolean; readonly number: Expression | undefined }
     | { readonly kind: "return"; readonly value: Expression | undefined }
     | { readonly kind: "brake" | "resume" | "halt" }
+    | ({ readonly kind: "trigger" } & Trigger)
     /** Read, and without effect on where the robot goes. */
     | { readonly kind: "nothing" }
+    /** Stands in another file than the program, and is not understood: that matters when it is reached. */
+    | { readonly kind: "fault"; readonly expected: string; readonly sentence: string }
   );
+
+/** What is done at a point of the next motion while the robot goes on. */
+export interface Trigger {
+  /** At the start of the next motion (`DISTANCE=0`, `ONSTART`), or at its end. */
+  readonly distance: Expression | undefined;
+  readonly onStart: boolean;
+  /** How far from that point, and how much later [ms]. */
+  readonly path: Expression | undefined;
+  readonly delay: Expression | undefined;
+  readonly action: Extract<Statement, { kind: "assign" | "call" | "pulse" }>;
+}
 
 /** A program as a list of statements and jumps. */
 export type Instruction = JumpInstruction<Expression, Variable, Statement>;
 
 /** `DECL INT A, B[3]` or `DECL FRAME F={…}`. */
 export interface Declaration extends TextPlace {
+  /** Known to all modules, and not only to its own: `GLOBAL`, and everything in $CONFIG. */
+  readonly isGlobal: boolean;
   readonly type: string;
   readonly name: string;
   readonly isArray: boolean;
   readonly value: Expression | undefined;
   readonly index: readonly Expression[];
 }
-/** `SIGNAL GRIPPER $OUT[1]`. */
+/** `SIGNAL GRIPPER $OUT[1]`, or `SIGNAL NUMBER $IN[1] TO $IN[8]`, the lowest bit first. */
 export interface SignalDeclaration extends TextPlace {
   readonly name: string;
-  readonly wire: "in" | "out" | "analogue-in" | "analogue-out";
+  readonly wire: "in" | "out" | "analogue-in" | "analogue-out" | "variable";
   readonly address: number;
+  readonly last?: number;
+  /** What it is another name of, where it is no line. */
+  readonly variable?: string;
 }
 
 export interface Parameter {
@@ -91,6 +110,8 @@ export interface Parameter {
 }
 export interface Routine {
   readonly name: string;
+  /** The module it stands in: the name of its file. */
+  readonly module: string;
   readonly place: TextPlace;
   readonly isFunction: boolean;
   readonly parameters: readonly Parameter[];
@@ -99,13 +120,20 @@ export interface Routine {
   readonly slots: number;
 }
 
-/** A module that was read: its routines, first one first, its signals, and what its data list declares. */
-export interface Source {
+/** A .src with its .dat: what it declares is its own, except what is called GLOBAL and its first routine. */
+export interface Module {
+  readonly name: string;
   readonly routines: ReadonlyMap<string, Routine>;
   readonly data: readonly Declaration[];
   /** Elements of its arrays, in their order: `POINT[3]={X 1,Y 2}`. */
   readonly elements: readonly Extract<Statement, { kind: "assign" }>[];
+}
+
+/** What was read: the modules, that of the main routine first, and the signals of all of them. */
+export interface Source {
+  readonly modules: ReadonlyMap<string, Module>;
+  readonly main: Routine | undefined;
+  /** Routines that every module can call. */
+  readonly shared: ReadonlyMap<string, Routine>;
   readonly signals: readonly SignalDeclaration[];
-  /** Line of the text in which the data list begins, or undefined. */
-  readonly dataLine: number | undefined;
 }

@@ -13,6 +13,8 @@ export interface Frame {
   readonly types: ReadonlyMap<string, string>;
   /** Where the values of parameters go that are handed back. */
   readonly back: readonly { readonly from: string; readonly to: Variable; readonly frame: Frame | undefined }[];
+  /** Parameters that stand for a line of the controller: with the key of the line. */
+  readonly lines: ReadonlyMap<string, string>;
   result: Value | undefined;
 }
 

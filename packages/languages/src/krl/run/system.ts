@@ -2,7 +2,7 @@ import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 import type { Variable } from "../read/syntax.ts";
 import { NULL_FRAME, type Frame } from "./frames.ts";
-import { component, fromFrame, real, toFrame, whole, type Structure, type Value } from "./values.ts";
+import { bool, component, fromFrame, real, toFrame, whole, type Structure, type Value } from "./values.ts";
 
 /** $VEL_AXIS has twelve places: six of the robot, six of external axes. */
 const PLACES = 12;
@@ -18,6 +18,14 @@ const structure = (type: string, fields: Readonly<Record<string, number>>): Stru
   fields: new Map(Object.entries(fields).map(([name, value]) => [name, real(value)])),
 });
 
+function homeFields(): ReadonlyMap<string, Value> {
+  return new Map<string, Value>([
+    ["TOOL_NO", whole(0)],
+    ["BASE_NO", whole(0)],
+    ["IPO_FRAME", { kind: "enum", value: "#BASE" }],
+  ]);
+}
+
 /** Variables that a program expects to find on the controller. */
 const DELIVERED: Readonly<Record<string, Value>> = {
   XHOME: structure("E6AXIS", { A1: 0, A2: -90, A3: 90, A4: 0, A5: 0, A6: 0 }),
@@ -28,8 +36,57 @@ const DELIVERED: Readonly<Record<string, Value>> = {
   DEF_ACC_CP: real(DELIVERED_ACC_CP),
   PDEFAULT: structure("PDAT", { VEL: 100, ACC: 100, APO_DIST: 100 }),
   LDEFAULT: structure("LDAT", { VEL: DELIVERED_VEL_CP, ACC: 100, APO_DIST: 100 }),
-  FHOME: structure("FDAT", { TOOL_NO: 0, BASE_NO: 0 }),
+  FHOME: { ...structure("FDAT", { TOOL_NO: 0, BASE_NO: 0 }), fields: homeFields() },
+  // The state of a controller that runs a program by itself and that nothing stands in the way of.
+  $MODE_OP: { kind: "enum", value: "#AUT" },
+  $T1: bool(false),
+  $T2: bool(false),
+  $AUT: bool(true),
+  $EXT: bool(false),
+  $ON_PATH: bool(true),
+  $IN_HOME: bool(true),
+  $NEAR_POSRET: bool(true),
+  $PRO_ACT: bool(true),
+  $PRO_MOVE: bool(false),
+  $ROB_STOPPED: bool(true),
+  $ROB_CAL: bool(true),
+  $STOPMESS: bool(false),
+  $ALARM_STOP: bool(true),
+  $USER_SAF: bool(true),
+  $PERI_RDY: bool(true),
+  $DRIVES_ON: bool(true),
+  $MOVE_ENABLE: bool(true),
+  $I_O_ACT: bool(true),
+  $PAL_MODE: bool(false),
+  $PRO_STATE: { kind: "enum", value: "#P_ACTIVE" },
+  $PRO_STATE0: { kind: "enum", value: "#P_ACTIVE" },
+  $PRO_STATE1: { kind: "enum", value: "#P_ACTIVE" },
+  $BRAKETEST_REQ_INT: bool(false),
+  $BRAKETEST_REQ_EX: bool(false),
+  $PRO_MODE: { kind: "enum", value: "#GO" },
+  $ADVANCE: whole(3),
+  $OV_PRO: whole(100),
+  $OV_ROB: whole(100),
+  // Packages for welding that a controller has or has not.
+  ARC10: bool(false),
+  ARC20: bool(false),
+  ARC50: bool(false),
+  A10_OPTION: { kind: "enum", value: "#DISABLED" },
+  A20_OPTION: { kind: "enum", value: "#DISABLED" },
+  A50_OPTION: { kind: "enum", value: "#DISABLED" },
+  $ERR: structure("ERROR_T", { NUMBER: 0 }),
+  $WORLD: fromFrame(NULL_FRAME),
+  $ROBROOT: fromFrame(NULL_FRAME),
 };
+/** Flags and timers by number: off, and at nought, until the program sets them. */
+const NUMBERED: Readonly<Record<string, Value>> = {
+  $FLAG: bool(false),
+  $CYCFLAG: bool(false),
+  $TIMER_FLAG: bool(false),
+  $TIMER_STOP: bool(true),
+  $TIMER: whole(0),
+};
+const PLACE_OF = /^(\$\w+)\[\d+\]$/;
 /** What changes where the robot goes and cannot be carried out here: refused where it is set, never passed over. */
 const REFUSED: Readonly<Record<string, Readonly<Record<string, string>>>> = {
   $IPO_MODE: {
@@ -78,10 +135,11 @@ export class System {
     const value = this.values.get(key);
     if (value !== undefined) return value;
     const table = TABLE.exec(key);
+    const numbered = NUMBERED[PLACE_OF.exec(key)?.[1] ?? ""];
     const delivered = Object.hasOwn(DELIVERED, key)
       ? DELIVERED[key]
       : table === null
-        ? undefined
+        ? numbered
         : fromFrame(NULL_FRAME);
     if (delivered !== undefined && key !== "$NULLFRAME" && table?.[1] !== "0" && !this.assumed.has(key))
       this.assumed.set(key, at);

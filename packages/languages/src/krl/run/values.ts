@@ -24,6 +24,8 @@ export interface Memory {
   /** @param key  name with its indices, `P[1]`. */
   read(key: string, at: TextPlace): Value | undefined;
   call(name: string, args: readonly (Expression | undefined)[], at: TextPlace): Value;
+  /** Takes a name that nothing declares, where a condition stands, for an input: whether it is one now. */
+  takeForInput(variable: Variable): boolean;
 }
 
 const KINDS = { number: "number", bool: "BOOL", text: "text", enum: "constant", structure: "structure" } as const;
@@ -59,7 +61,8 @@ export function keyOf({ parts: [first], ...at }: Variable, memory: Memory): stri
   return indexed(first!.name, first!.indices, memory, at);
 }
 
-function indexed(name: string, indices: readonly Expression[], memory: Memory, at: TextPlace): string {
+/** A name with its indices worked out: `BLOCK[3]`. */
+export function indexed(name: string, indices: readonly Expression[], memory: Memory, at: TextPlace): string {
   if (indices.length === 0) return name;
   return `${name}[${indices
     .map(index => {
@@ -99,6 +102,7 @@ export function numberOf(expression: Expression, memory: Memory): number {
 }
 
 export function boolOf(expression: Expression, memory: Memory): boolean {
+  if (expression.kind === "variable" && expression.parts.length === 1) memory.takeForInput(expression);
   const value = evaluate(expression, memory);
   if (value.kind !== "bool")
     throw new TextError(expression, "TRUE or FALSE", `A ${KINDS[value.kind]} stands where a condition is expected.`);
@@ -147,6 +151,12 @@ function unary({ sign, of, ...at }: Extract<Expression, { kind: "unary" }>, memo
 
 function binary(expression: Extract<Expression, { kind: "binary" }>, memory: Memory): Value {
   const { sign } = expression;
+  const isTruth = expression.right.kind === "bool" && (sign === "==" || sign === "<>");
+  if (sign === "AND" || sign === "OR" || sign === "EXOR") {
+    const a = boolOf(expression.left, memory);
+    return bool(logic(sign, a, boolOf(expression.right, memory), expression));
+  }
+  if (isTruth && expression.left.kind === "variable") memory.takeForInput(expression.left);
   const left = evaluate(expression.left, memory);
   const right = evaluate(expression.right, memory);
   if (sign === ":") {

@@ -1,4 +1,4 @@
-import type { EmittedFile, Pose, SignalLine } from "@twincell/core";
+import type { EmittedFile, Pose, SignalLine, Variable } from "@twincell/core";
 import { frameText } from "./location.ts";
 import { krlName } from "./names.ts";
 import { TextWriter } from "./text-writer.ts";
@@ -18,6 +18,7 @@ export class DataList {
   private readonly frames = new Map<string, string>();
   private hasGripper = false;
   private readonly signals = new Map<string, string>();
+  private readonly variables = new Map<string, string>();
   private readonly declared: { readonly line: string; readonly step: string }[] = [];
 
   /**
@@ -48,6 +49,16 @@ export class DataList {
     if (!this.hasGripper) this.add(`SIGNAL ${GRIPPER} $OUT[${address}]`);
     this.hasGripper = true;
     return GRIPPER;
+  }
+
+  /** A variable of the program; its first value is given where the program begins. */
+  variable(name: string, { type }: Variable): string {
+    const known = this.variables.get(name);
+    if (known !== undefined) return known;
+    const variable = krlName(name, this.taken);
+    this.variables.set(name, variable);
+    this.add(`DECL ${{ bool: "BOOL", int: "INT", num: "REAL" }[type]} ${variable}=${type === "bool" ? "FALSE" : "0"}`);
+    return variable;
   }
 
   counter(name: string): string {

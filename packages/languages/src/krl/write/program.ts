@@ -2,7 +2,8 @@ import {
   compose,
   distance,
   inverse,
-  type Condition,
+  isPassedOver,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PalletStep,
@@ -20,7 +21,7 @@ import { principal } from "./inertia.ts";
 import { axisText, frameText, lengthText } from "./location.ts";
 import { commentText, krlName } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
+import { PENDANT_UNITS, expressionText, type ExpressionWords, type WalkedPlace } from "../../emitter/index.ts";
 import type { ConfigurationMap } from "./postures.ts";
 import { Settings } from "./settings.ts";
 import { TextWriter } from "./text-writer.ts";
@@ -102,12 +103,12 @@ export class ModuleWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (let i = 0; i < steps.length; i++) {
       const step = steps[i]!;
-      const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
+      const next = steps.slice(i + 1).find(each => !isPassedOver(each)) ?? after;
       if (step.type !== "move" || step.path !== "spline") {
         this.step(
           step,
           next,
-          steps.slice(0, i).findLast(({ type }) => type !== "comment"),
+          steps.slice(0, i).findLast(each => !isPassedOver(each)),
         );
         continue;
       }
@@ -120,7 +121,7 @@ export class ModuleWriter {
         block.push(following);
         i++;
       }
-      this.spline(block, steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after);
+      this.spline(block, steps.slice(i + 1).find(each => !isPassedOver(each)) ?? after);
     }
   }
 
@@ -139,7 +140,7 @@ export class ModuleWriter {
       case "set":
         return add(this.set(step));
       case "wait-for":
-        return add(`WAIT FOR ${this.condition(step.when)}`);
+        return add(`WAIT FOR ${this.condition(step.when, step)}`);
       case "payload":
         return add(payloadText(step));
       case "message":
@@ -155,6 +156,8 @@ export class ModuleWriter {
         );
       case "comment":
         return add(`;* ${commentText(step.text)}`);
+      case "assign":
+        return add(`${this.words.variable(step.variable)}=${expressionText(step.to, this.words, this.program, step)}`);
       case "call":
         add(`${this.routineNames.get(step.routine)!}( )`);
         return this.settings.forget();
@@ -172,10 +175,19 @@ export class ModuleWriter {
           step.times === "forever" ? "ENDLOOP" : "ENDFOR",
         );
       }
+      case "while":
+        return this.block(
+          step.id,
+          `WHILE ${this.condition(step.when, step)}`,
+          () => {
+            this.steps(step.steps, undefined);
+          },
+          "ENDWHILE",
+        );
       case "if":
         this.block(
           step.id,
-          `IF ${this.condition(step.when)} THEN`,
+          `IF ${this.condition(step.when, step)} THEN`,
           () => {
             this.steps(step.then, next);
           },
@@ -240,6 +252,39 @@ export class ModuleWriter {
     this.group = group;
   }
 
+  private readonly words: ExpressionWords = {
+    truth: ["FALSE", "TRUE"],
+    number: singleText,
+    variable: name => this.data.variable(name, this.program.variables![name]!),
+    line: signal => this.signal(signal),
+    not: inner => `NOT ${inner}`,
+    signs: {
+      and: " AND ",
+      or: " OR ",
+      "=": "==",
+      "<>": "<>",
+      "<": "<",
+      "<=": "<=",
+      ">": ">",
+      ">=": ">=",
+      "+": "+",
+      "-": "-",
+      "*": "*",
+      "/": "/",
+      // Whole numbers divide to whole numbers.
+      div: "/",
+      mod: (a, b) => `${a}-${a}/${b}*${b}`,
+    },
+    calls: {
+      sqrt: x => `SQRT(${x})`,
+      sin: x => `SIN(${x})`,
+      cos: x => `COS(${x})`,
+    },
+    scale: PENDANT_UNITS,
+    real: text => `1.0*${text}`,
+    comparesTruth: true,
+  };
+
   private set({ signal, to, pulse_s }: SetStep): string {
     const variable = this.signal(signal);
     const value = typeof to === "number" ? singleText(to) : to ? "TRUE" : "FALSE";
@@ -250,7 +295,8 @@ export class ModuleWriter {
     return this.data.signal(name, this.program.signals[name]!);
   }
 
-  private condition(when: Condition): string {
+  private condition(when: Predicate, step: Step): string {
+    if ("expression" in when) return expressionText(when.expression, this.words, this.program, step);
     const variable = this.signal(when.signal);
     if ("is" in when) return when.is ? variable : `NOT ${variable}`;
     return "above" in when ? `${variable}>${singleText(when.above)}` : `${variable}<${singleText(when.below)}`;
@@ -377,7 +423,7 @@ export class ModuleWriter {
     const add = (text: string): void => {
       this.out.add(text, step.id);
     };
-    add(`INTERRUPT DECL ${n} WHEN ${this.condition(step.until!.when)} DO ${met}( )`);
+    add(`INTERRUPT DECL ${n} WHEN ${this.condition(step.until!.when, step)} DO ${met}( )`);
     add(`INTERRUPT ON ${n}`);
     add(`${name}( )`);
     add(`INTERRUPT OFF ${n}`);
@@ -409,9 +455,9 @@ export class ModuleWriter {
         return true;
       case "repeat":
       case "pallet":
-        return this.goesOn(next.steps.find(({ type }) => type !== "comment"));
+        return this.goesOn(next.steps.find(each => !isPassedOver(each)));
       case "call":
-        return this.goesOn(this.program.routines[next.routine]?.find(({ type }) => type !== "comment"));
+        return this.goesOn(this.program.routines[next.routine]?.find(each => !isPassedOver(each)));
       default:
         return false;
     }

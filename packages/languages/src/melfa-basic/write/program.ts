@@ -61,6 +61,7 @@ export class MelfaProgram extends BasicProgram {
     super(place, new Names({ most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }), {
       endIf: "EndIf",
       forever: ["While 1", "WEnd"],
+      whileTrue: ["While", "WEnd"],
       mm: mmText,
     });
     this.section = section;
@@ -184,6 +185,9 @@ export class MelfaProgram extends BasicProgram {
   }
   protected call(routine: string, add: Add): void {
     add(`GoSub *${this.label(routine)}`);
+  }
+  protected variableName(name: string): string {
+    return this.named("variable", name, "m");
   }
   protected line(signal: string): string {
     return this.named("signal", signal, "m");

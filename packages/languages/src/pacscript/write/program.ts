@@ -61,6 +61,8 @@ export class PacProgram extends BasicModules {
         close: "End Sub",
         endIf: "End If",
         forever: ["Do", "Loop"],
+        whileTrue: ["Do While", "Loop"],
+        global: (name, type) => `Dim ${name} As ${type === "num" ? "Single" : "Integer"}`,
         mm: mmText,
         most: { tools: 63, frames: 7, called: "works" },
         lines: LINES,

@@ -7,7 +7,7 @@ import type { BasicAnswer } from "./reader.ts";
 export interface BasicLanguage {
   readonly name: string;
   readonly speaks: (robot: Robot) => boolean;
-  readonly read: (text: string) => BasicAnswer;
+  readonly read: (text: string, asText?: boolean) => BasicAnswer;
   readonly machine: (stage: RunContext) => BasicMachine<object>;
 }
 
@@ -15,14 +15,16 @@ export interface BasicLanguage {
 export const basicEntryPoints = ({ machine, ...language }: BasicLanguage): BlockReader =>
   blockEntryPoints({
     ...language,
+    notExecuted: ({ kept }) => kept,
     script: (source, robot, worldFromBase) =>
-      mainScript(source, (declared, signals) =>
+      mainScript(source, (declared, signals, notices) =>
         machine({
           source,
           robot,
           worldFromBase,
           declared,
           ...(signals === undefined ? {} : { signals }),
+          ...(notices === undefined ? {} : { notices }),
         }),
       ),
   });

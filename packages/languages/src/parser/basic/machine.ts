@@ -1,20 +1,24 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
+import type { Notices } from "../notices.ts";
 import { rememberMap } from "../remember.ts";
 import type { DeclaredCell } from "../declared-cell.ts";
 import {
   BlockMachine,
   constantsOf,
   type Argument,
+  type Block,
   type Do,
   type Expression,
   type Flow,
+  type Routine,
+  type Statement,
   type WaitUntil,
 } from "../structured/index.ts";
 import type { BasicSource } from "./reader.ts";
 import { NOWHERE, asPose, on, type Rigid } from "./rigid.ts";
 import { UprightArm, type Upright } from "./upright.ts";
-import { arithmetic, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
+import { NotGiven, arithmetic, isUnknown, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
 
 /** Where a text runs. */
 export interface RunContext {
@@ -23,6 +27,8 @@ export interface RunContext {
   readonly worldFromBase: Pose<"world", "base">;
   readonly declared: DeclaredCell;
   readonly signals?: Signals;
+  /** Takes what only the controller knows; without, such a thing is refused. */
+  readonly notices?: Notices;
 }
 type Binary = Extract<Expression, { kind: "binary" }>;
 type Call = Extract<Expression, { kind: "call" }>;
@@ -47,8 +53,11 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   /** Whether the tool was said where the program is now; joint angles alone do not ask for one. */
   private hasTool = false;
 
-  constructor({ source, robot, worldFromBase, declared, signals }: RunContext, upright: Upright, state: S) {
+  protected readonly notices: Notices | undefined;
+
+  constructor({ source, robot, worldFromBase, declared, signals, notices }: RunContext, upright: Upright, state: S) {
     super(source.routines);
+    this.notices = notices;
     this.arm = new UprightArm(robot, upright, worldFromBase);
     this.constants = constantsOf(source.main, source.routines.values());
     this.declared = declared;
@@ -101,6 +110,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         return expression.value ? this.truth : 0;
       case "variable": {
         const value = this.variable(expression.name) ?? this.known(expression.name);
+        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: expression.name };
         if (value === undefined)
           throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
         return value;
@@ -108,6 +118,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
       case "index": {
         const key = this.keyOf(expression);
         const value = this.variable(key) ?? this.digital(expression);
+        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: key };
         if (value === undefined)
           throw new TextError(expression, "a variable that has a value", `"${key}" has no value yet.`);
         return value;
@@ -117,7 +128,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
       case "component":
         return this.component(this.evaluate(expression.of), expression.name, expression);
       case "unary": {
-        const value = numberIn(this.evaluate(expression.of), expression);
+        const value = this.number(this.evaluate(expression.of), expression);
         return expression.sign === "not" ? (value === 0 ? this.truth : 0) : -value;
       }
       case "binary": {
@@ -125,6 +136,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         const a = this.evaluate(left);
         if (sign === "and" && a === 0) return 0;
         const b = this.evaluate(right);
+        if (isUnknown(a) || isUnknown(b)) return this.withUnknown(expression, a, b);
         return this.joined(sign, a, b, expression) ?? arithmetic(sign, a, b, is => (is ? this.truth : 0), expression);
       }
       case "call": {
@@ -139,7 +151,25 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     return this.numberOf(expression) !== 0;
   }
   numberOf(expression: Expression): number {
-    return numberIn(this.evaluate(expression), expression);
+    return this.number(this.evaluate(expression), expression);
+  }
+
+  /** A number; one that only the controller knows is 0, which is said. */
+  private number(value: Value, at: TextPlace): number {
+    if (!isUnknown(value)) return numberIn(value, at);
+    this.notices?.notGiven(at, `${value.name} is in none of the files: it is taken as 0.`);
+    return 0;
+  }
+
+  /** A sign beside something that only the controller knows: with a number it is one, with a place a place. */
+  private withUnknown(of: Binary, a: Value, b: Value): Value {
+    const isNumbers =
+      typeof a === "number" || typeof b === "number" || !["+", "-", "*", "/", "@", ":"].includes(of.sign);
+    if (!isNumbers) return { kind: "unknown", name: isUnknown(a) ? a.name : isUnknown(b) ? b.name : "" };
+    const left = typeof a === "string" ? a : this.number(a, of.left);
+    const right = typeof b === "string" ? b : this.number(b, of.right);
+    if (typeof left !== typeof right) return 0;
+    return arithmetic(of.sign, left, right, is => (is ? this.truth : 0), of);
   }
   fromNumber(value: number): Value {
     return value;
@@ -213,8 +243,55 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     return signal === undefined ? undefined : { signal, is: true };
   }
 
+  /** A label that a jump goes to, until it is met. */
+  private pendingJump: { readonly label: string; readonly at: TextPlace } | undefined;
+
+  /** Blocks inside blocks that are executed. */
+  private depthOfBlocks = 0;
+
+  override *block(block: Block): Generator<Executed, Flow> {
+    this.depthOfBlocks++;
+    try {
+      for (let i = 0; i < block.length; i++) {
+        const flow = yield* this.statement(block[i]!);
+        if (this.pendingJump !== undefined) {
+          const { label } = this.pendingJump;
+          const to = block.findIndex(each => labelOf(each) === label);
+          if (to < 0 && this.depthOfBlocks === 1) throw this.unreached();
+          if (to < 0) return "break";
+          this.pendingJump = undefined;
+          i = to;
+          continue;
+        }
+        if (flow !== "next") return flow;
+      }
+      return "next";
+    } finally {
+      this.depthOfBlocks--;
+    }
+  }
+
+  private unreached(): TextError {
+    const { label, at } = this.pendingJump!;
+    return new TextError(at, "a label of this routine", `The label ${label} is not reached from there.`);
+  }
+
+  override *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
+    const flow = yield* super.call(routine, args, at);
+    if (this.pendingJump !== undefined) throw this.unreached();
+    return flow;
+  }
+
+  /** A group of lines, by its name: a number that comes from outside. */
+  protected group(name: string): number {
+    this.declared.signals[name] ??= { kind: "analogue-in" };
+    return Number(this.signals?.read(name) ?? 0);
+  }
+
   protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
     const when = this.condition(statement.when);
+    if (this.notices !== undefined && (when === undefined || statement.timeout !== undefined))
+      return yield* this.waitAsText(statement, this.notices);
     if (when === undefined)
       throw new TextError(
         statement.when,
@@ -267,8 +344,43 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
 
   // --- moves ------------------------------------------------------------------------------------------------------
 
+  /** A wait that is over when its time is, or for what nothing here makes true. */
+  private *waitAsText({ when, timeout, ...at }: WaitUntil, notices: Notices): Generator<Executed, void> {
+    const isMet = this.isTrue(when);
+    if (!isMet && timeout === undefined)
+      notices.add(
+        at,
+        "a condition of one line",
+        `Line ${at.line} waits for what nothing here makes true: the program goes on as if it were.`,
+      );
+    const s = isMet || timeout === undefined ? 0 : Math.max(0, this.numberOf(timeout));
+    yield this.done(at, { id: this.stepId(at), type: "wait", s });
+  }
+
+  /** What a statement does that is in none of the files: it may move the robot. */
+  protected away(at: TextPlace, what: string): void {
+    this.notices?.notGiven(at, `What ${what} does, motions too, is not executed.`);
+    this.arm.isLost = true;
+  }
+
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
-    const steps = this.steps(statement);
+    const [to] = statement.args;
+    if (statement.name === "goto" && to?.value?.kind === "text") {
+      this.pendingJump = { label: to.value.value, at: { line: statement.line, column: statement.column } };
+      yield { line: statement.line };
+      return "break";
+    }
+    if (statement.name === "label") return undefined;
+    let steps: readonly Step[];
+    try {
+      steps = this.steps(statement);
+    } catch (cause) {
+      if (!(cause instanceof NotGiven) || this.notices === undefined) throw cause;
+      this.notices.notGiven(statement, `${cause.fault.sentence}: the motion is not executed.`);
+      this.arm.isLost = true;
+      yield { line: statement.line };
+      return undefined;
+    }
     for (const step of steps) yield this.done(statement, step);
     if (steps.length === 0) yield { line: statement.line };
     return undefined;
@@ -301,7 +413,8 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
       else arm.goneTo(arm.atAngles(goal.deg));
       return { q: arm.inRadians(goal.deg), ...(isJoint && !this.hasTool ? {} : { tool }) };
     }
-    if (typeof goal !== "object" || goal.kind === "shift")
+    if (typeof goal === "object" && goal.kind === "unknown") placeIn(goal, at);
+    if (typeof goal !== "object" || goal.kind === "shift" || goal.kind === "unknown")
       throw new TextError(
         at,
         "a place",
@@ -311,7 +424,13 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     const configuration =
       asks && goal.posture !== undefined && Object.keys(goal.posture).length > 0 ? goal.posture : undefined;
     const branch = configuration === undefined ? undefined : arm.branchAt(place, configuration);
-    if (configuration !== undefined && branch === undefined)
+    if (configuration !== undefined && branch === undefined && this.notices !== undefined)
+      this.notices.add(
+        at,
+        "a place that is reached so",
+        `Line ${at.line}: this robot does not reach the place in the posture that is asked for; the nearest is taken.`,
+      );
+    else if (configuration !== undefined && branch === undefined)
       throw new TextError(
         at,
         "a place that is reached so",
@@ -357,6 +476,11 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     this.declared.frames[name] ??= this.arm.inWorld(of);
   }
 }
+
+const labelOf = (statement: Statement): string | undefined =>
+  statement.kind === "do" && statement.name === "label" && statement.args[0]?.value?.kind === "text"
+    ? statement.args[0].value.value
+    : undefined;
 
 /** A place met before keeps its name; two never share one. */
 function kept<T>(table: Record<string, T>, value: T, wanted: string): string {

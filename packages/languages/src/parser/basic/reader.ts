@@ -1,5 +1,5 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../faults.ts";
+import { TextError, textFault } from "../faults.ts";
 import {
   RecoveringReader,
   readExpression,
@@ -19,6 +19,8 @@ export interface BasicSource {
   readonly title: string;
   readonly main: Block;
   readonly routines: ReadonlyMap<string, Routine>;
+  /** What is kept and shown but not executed. */
+  readonly kept: readonly TextFault[];
 }
 export type BasicAnswer =
   | { readonly kind: "source"; readonly source: BasicSource }
@@ -32,6 +34,8 @@ export interface BasicGrammar {
   readonly alike: Readonly<Record<string, string>>;
   /** Statements that are understood and cannot be written as steps, with what the user is told. */
   readonly unsayable: Readonly<Record<string, string>>;
+  /** Statements that are kept and named where a text is executed as it is: what they do, in a few words. */
+  readonly shown?: Readonly<Record<string, string>>;
 }
 
 /**
@@ -47,8 +51,13 @@ export abstract class BasicReader extends RecoveringReader {
   private readonly calls = new Map<string, TextPlace>();
   private readonly words = new Map<string, string>();
 
-  constructor(text: string, grammar: BasicGrammar) {
+  /** The text is executed, not kept as steps. */
+  protected readonly asText: boolean;
+  protected readonly kept: TextFault[] = [];
+
+  constructor(text: string, grammar: BasicGrammar, asText = false) {
     super(text, grammar.lexicon);
+    this.asText = asText;
     this.grammar = grammar;
   }
 
@@ -66,6 +75,14 @@ export abstract class BasicReader extends RecoveringReader {
       this.words.get(small) ?? (Object.hasOwn(this.grammar.alike, small) ? this.grammar.alike[small]! : small);
     this.words.set(word, folded);
     return folded;
+  }
+
+  /** Keeps a statement of which the robot's motion knows nothing. */
+  protected shown(at: TextPlace, what: string): undefined {
+    const { cursor } = this;
+    cursor.skip(each => each.isAt("line-end"));
+    this.kept.push(textFault(at, "a statement that is executed", `Line ${at.line} is shown, not executed: ${what}.`));
+    return undefined;
   }
 
   /** A routine, a declaration, or whatever else stands outside of routines. */
@@ -97,7 +114,7 @@ export abstract class BasicReader extends RecoveringReader {
         });
     }
     for (const [name, at] of this.calls)
-      if (!this.routines.has(name))
+      if (!this.routines.has(name) && !this.asText)
         faults.push(new TextError(at, "a routine of this text", `The routine ${name} is not in the text.`).fault);
     const main = this.started();
     if (main === undefined && faults.length === 0)
@@ -105,7 +122,12 @@ export abstract class BasicReader extends RecoveringReader {
     if (faults.length > 0 || main === undefined) return { kind: "not-understood", faults };
     return {
       kind: "source",
-      source: { title: titleOf(main.body) ?? main.name, main: [...this.before, ...main.body], routines: this.routines },
+      source: {
+        title: titleOf(main.body) ?? main.name,
+        main: [...this.before, ...main.body],
+        routines: this.routines,
+        kept: this.kept,
+      },
     };
   }
 
@@ -209,9 +231,24 @@ export abstract class BasicReader extends RecoveringReader {
           return read;
         });
         if (statement !== undefined) statements.push(statement);
+        statements.push(...this.trailing());
       }
       return statements;
     });
+  }
+
+  /** A statement about a label: where it stands, or that the program goes on there. */
+  protected labelled(name: "label" | "goto", label: string, at: TextPlace): Statement {
+    return { kind: "do", name, args: [{ value: { kind: "text", value: label, ...at }, ...at }], ...at };
+  }
+
+  /** Statements that were read beside the last one and are done behind it. */
+  protected trailing(): Statement[] {
+    return [];
+  }
+  /** A statement that only a text that is executed may hold; undefined for one that is refused. */
+  protected statementAsText(_word: string, _at: TextPlace): Statement | undefined {
+    return undefined;
   }
 
   /** Whether a word ends a routine, so that a block inside it cannot go on. */
@@ -255,6 +292,10 @@ export abstract class BasicReader extends RecoveringReader {
         default:
           break;
       }
+      const shown = this.asText && Object.hasOwn(grammar.shown ?? {}, word) ? grammar.shown![word] : undefined;
+      if (shown !== undefined && cursor.second !== "=") return this.shown(at, shown);
+      const asText = this.asText ? this.statementAsText(word, at) : undefined;
+      if (asText !== undefined) return asText;
       if (Object.hasOwn(grammar.unsayable, word))
         throw new TextError(at, "a statement of the motion program", grammar.unsayable[word]!);
       if (grammar.expression.reserved.has(word)) throw cursor.unexpected("a statement");

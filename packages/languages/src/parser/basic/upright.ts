@@ -21,6 +21,8 @@ export class UprightArm {
   /** The last joint angles that were known [rad]. */
   private near: readonly number[];
   private flange: Rigid;
+  /** The robot went where nobody here knows. */
+  isLost = false;
 
   constructor(robot: Robot, { language, leansForward }: Upright, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
@@ -48,11 +50,13 @@ export class UprightArm {
   }
 
   goneToAngles(deg: readonly number[]): void {
+    this.isLost = false;
     this.near = this.inRadians(deg);
     this.flange = ofPose(flangePose(this.robot.arm, this.near));
   }
 
   goneTo(place: Rigid): void {
+    this.isLost = false;
     this.flange = on(place, back(this.tool));
   }
 
@@ -86,8 +90,9 @@ export class UprightArm {
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
-    const { tool, near, flange } = this;
+    const { tool, near, flange, isLost } = this;
     return () => {
+      this.isLost = isLost;
       this.tool = tool;
       this.near = near;
       this.flange = flange;

@@ -35,10 +35,24 @@ export interface ShiftValue {
   readonly by: Six;
   readonly isOwn: boolean;
 }
+/** What only the controller knows: a variable or a point that no file gives a value. */
+export interface UnknownValue {
+  readonly kind: "unknown";
+  readonly name: string;
+}
 /** Truth is a number: 0 is false. */
-export type Value = number | string | PlaceValue | JointsValue | ShiftValue;
+export type Value = number | string | PlaceValue | JointsValue | ShiftValue | UnknownValue;
+export const isUnknown = (value: Value): value is UnknownValue => typeof value === "object" && value.kind === "unknown";
 
-const SORTS = { place: "a place", joints: "a set of joint angles", shift: "a step from a place" } as const;
+/** A place that only the controller knows stands where one is needed. */
+export class NotGiven extends TextError {}
+
+const SORTS = {
+  unknown: "what is in none of the files",
+  place: "a place",
+  joints: "a set of joint angles",
+  shift: "a step from a place",
+} as const;
 export const sortOf = (value: Value): string =>
   typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : SORTS[value.kind];
 
@@ -55,6 +69,7 @@ export function numberIn(value: Value, at: TextPlace): number {
 }
 
 export function placeIn(value: Value, at: TextPlace): PlaceValue {
+  if (isUnknown(value)) throw new NotGiven(at, "a place", `${value.name} is in none of the files`);
   if (typeof value !== "object" || value.kind !== "place") throw instead(value, "a place", at);
   return value;
 }
@@ -98,6 +113,7 @@ const NUMBERS: Readonly<Record<string, (a: number, b: number) => number | boolea
   "*": (a, b) => a * b,
   "/": (a, b) => a / b,
   "^": (a, b) => a ** b,
+  "**": (a, b) => a ** b,
   mod: (a, b) => a % b,
   "=": (a, b) => a === b,
   "==": (a, b) => a === b,

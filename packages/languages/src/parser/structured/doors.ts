@@ -12,6 +12,7 @@ import {
 } from "@twincell/core";
 import type { CheckedReader, ReadSteps } from "../../reading/checked-import.ts";
 import { TextError, textFault } from "../faults.ts";
+import { Notices } from "../notices.ts";
 import { dryRun } from "../rehearse.ts";
 import { createDeclaredCell, type DeclaredCell } from "../declared-cell.ts";
 import { RunsOnTheSpot } from "./machine.ts";
@@ -22,8 +23,11 @@ import type { Block } from "./tree.ts";
 /** A text that was read, for one robot: its title, and how it is executed and written down. */
 export interface Script<M> {
   readonly title: string;
-  /** A machine before its first statement. It adds the tools, frames and lines that it meets to `declared`. */
-  readonly machine: (declared: DeclaredCell, signals?: Signals) => M;
+  /**
+   * A machine before its first statement. It adds the tools, frames and lines that it meets to `declared`. With
+   * `notices` it may go on without what only the controller knows, and says so there; without, it refuses.
+   */
+  readonly machine: (declared: DeclaredCell, signals?: Signals, notices?: Notices) => M;
   /** The one that writes the program down, where that takes another. */
   readonly writer?: (declared: DeclaredCell) => M;
   readonly run: (machine: M) => Generator<Executed, unknown>;
@@ -49,7 +53,11 @@ export const routineScript = <M extends { main(): Generator<Executed, unknown>; 
 export interface BlockLanguage<S, M> {
   readonly name: string;
   readonly speaks: (robot: Robot) => boolean;
-  readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
+  /**
+   * With `asText` the text is only executed, not kept as steps: statements that do not move the robot may be left out
+   * and named.
+   */
+  readonly read: (text: string, asText?: boolean) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
   /**
    * What of the text is kept and shown but not executed. Throws a TextError where that could change how the robot
@@ -80,6 +88,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
     text: string,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
+    asText: boolean,
   ): { readonly kind: "open"; readonly script: Script<M>; readonly kept: readonly TextFault[] } | NotUnderstood {
     if (!speaks(robot))
       return refusal(
@@ -89,7 +98,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
           `The controller of the ${robot.name} does not speak ${name}.`,
         ),
       );
-    const answer = read(text);
+    const answer = read(text, asText);
     if (answer.kind === "not-understood") return answer;
     try {
       const kept = notExecuted?.(answer.source) ?? [];
@@ -99,31 +108,33 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
       return refusal(cause.fault);
     }
   }
-  function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
+  function executable(script: Script<M>, kept: readonly TextFault[]): Extract<Interpreted, { kind: "ready" }> {
     const declared = createDeclaredCell();
+    const notices = new Notices(kept);
     const run = function* (signals?: Signals): Generator<Executed, void> {
       const asked = new AskedSignals(signals);
       try {
-        yield* script.run(script.machine(declared, asked));
+        const machine = script.machine(declared, asked, notices);
+        machine.notes = notices.byTopic;
+        yield* script.run(machine);
       } catch (cause) {
         // What turns in a circle while inputs are looked at goes on when they change.
         if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
         throw cause;
       }
     };
-    return { kind: "ready", run, context: declared };
+    return { kind: "ready", run, context: declared, notExecuted: notices.faults };
   }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
-      const opened = open(text, robot, worldFromBase);
+      const opened = open(text, robot, worldFromBase, true);
       if (opened.kind === "not-understood") return opened;
-      const ready = executable(opened.script);
+      const ready = executable(opened.script, opened.kept);
       const fault = dryRun({ [Symbol.iterator]: () => ready.run() });
-      if (fault !== undefined) return refusal(fault);
-      return opened.kept.length === 0 ? ready : { ...ready, notExecuted: opened.kept };
+      return fault === undefined ? ready : refusal(fault);
     },
     parse(text, robot, worldFromBase = identity()): ReadSteps {
-      const opened = open(text, robot, worldFromBase);
+      const opened = open(text, robot, worldFromBase, false);
       if (opened.kind === "not-understood") return opened;
       const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script;
       const declared = createDeclaredCell();
@@ -132,10 +143,11 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         const outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
         const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine);
         const { groups, routines, pallets } = outline;
+        const kept = [...opened.kept, ...machine.notes.values()];
         return {
           kind: "parsed",
-          executable: () => executable(opened.script),
-          warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
+          executable: () => executable(opened.script, opened.kept),
+          warnings: [...outline.warnings, ...kept, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...declared, groups, pallets, routines, steps },
         };
       } catch (cause) {

@@ -1,9 +1,9 @@
-import type { Executed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../faults.ts";
+import type { Executed, Step, TextFault, TextPlace } from "@twincell/core";
+import { TextError, textFault } from "../faults.ts";
 import { rememberMap } from "../remember.ts";
 import type { Argument, Block, Expression, Routine, Statement } from "./tree.ts";
 
-export type Flow = "next" | "break" | "continue" | "return" | "halt";
+export type Flow = "next" | "break" | "continue" | "return" | "halt" | "goto";
 export type Do = Extract<Statement, { kind: "do" }>;
 export type WaitUntil = Extract<Statement, { kind: "wait-until" }>;
 
@@ -33,6 +33,11 @@ export abstract class BlockMachine<V> {
   private idle = 0;
   private depth = 0;
   private returned: V | undefined;
+  /** The label that a GOTO looks for. */
+  private sought = "";
+  private soughtAt: TextPlace = { line: 1, column: 1 };
+  /** What is not carried out as it stands, by what it is about. */
+  notes: Map<string, TextFault> = new Map();
 
   constructor(routines: ReadonlyMap<string, Routine>) {
     this.routines = routines;
@@ -52,20 +57,31 @@ export abstract class BlockMachine<V> {
   }
 
   *block(block: Block): Generator<Executed, Flow> {
-    for (const statement of block) {
-      const flow = yield* this.statement(statement);
-      if (flow !== "next") return flow;
+    for (let i = 0; i < block.length; i++) {
+      const flow = yield* this.statement(block[i]!);
+      if (flow === "next") continue;
+      if (flow !== "goto") return flow;
+      // The label stands here or in a block around this one.
+      const at = block.findIndex(each => each.kind === "label" && each.name === this.sought);
+      if (at < 0) return flow;
+      this.spend(block[at]!);
+      i = at;
     }
     return "next";
   }
 
+  /** Says something once. */
+  protected remark(about: string, at: TextPlace, expected: string, sentence: string): void {
+    if (!this.notes.has(about)) this.notes.set(about, textFault(at, expected, sentence));
+  }
+
   *statement(statement: Statement): Generator<Executed, Flow> {
-    if (statement.kind === "comment") return "next";
+    if (statement.kind === "comment" || statement.kind === "label") return "next";
     this.spend(statement);
     switch (statement.kind) {
       case "assign": {
         const { value } = statement;
-        const called = value.kind === "call" ? this.routines.get(value.name) : undefined;
+        const called = value.kind === "call" ? this.routine(value.name) : undefined;
         if (called !== undefined && value.kind === "call") {
           const flow = yield* this.call(called, value.args, value);
           if (flow === "halt") return flow;
@@ -75,7 +91,7 @@ export abstract class BlockMachine<V> {
         return "next";
       }
       case "do": {
-        const called = this.routines.get(statement.name);
+        const called = this.routine(statement.name);
         if (called !== undefined) return yield* this.call(called, statement.args, statement);
         return (yield* this.instruction(statement)) ?? "next";
       }
@@ -90,7 +106,7 @@ export abstract class BlockMachine<V> {
           yield { line: statement.line };
           const flow = yield* this.block(statement.body);
           if (flow === "break") break;
-          if (flow === "return" || flow === "halt") return flow;
+          if (flow === "return" || flow === "halt" || flow === "goto") return flow;
         }
         return "next";
       case "for":
@@ -105,6 +121,10 @@ export abstract class BlockMachine<V> {
         return "break";
       case "continue":
         return "continue";
+      case "goto":
+        this.sought = statement.label;
+        this.soughtAt = statement;
+        return "goto";
       case "halt":
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
         return "halt";
@@ -144,7 +164,7 @@ export abstract class BlockMachine<V> {
       yield { line: statement.line };
       const flow = yield* this.block(statement.body);
       if (flow === "break") break;
-      if (flow === "return" || flow === "halt") return flow;
+      if (flow === "return" || flow === "halt" || flow === "goto") return flow;
     }
     return "next";
   }
@@ -156,11 +176,26 @@ export abstract class BlockMachine<V> {
 
   *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
     this.enter(routine, args, at);
+    const { names } = this.scopes.at(-1)!;
+    let flow: Flow;
     try {
-      return (yield* this.block(routine.body)) === "halt" ? "halt" : "next";
+      flow = yield* this.block(routine.body);
     } finally {
       this.leave();
     }
+    if (flow === "goto")
+      throw new TextError(
+        this.soughtAt,
+        "a label of the routine",
+        `Label ${this.sought} is not in ${routine.name}, or inside a block.`,
+      );
+    this.handBack(routine, names, args);
+    return flow === "halt" ? "halt" : "next";
+  }
+
+  /** Gives the variables of the caller what a routine made of its parameters. */
+  protected handBack(_routine: Routine, _names: ReadonlyMap<string, V>, _args: readonly Argument[]): void {
+    /* in most languages a routine has copies */
   }
 
   /** Does something in the variables of a routine that takes no arguments. */

@@ -106,6 +106,8 @@ export class Outline<V> {
         this.add(out, { ...step, type: "call", routine: name }, statement);
         return this.endsAll.has(name) ? "halt" : "next";
       }
+      case "goto":
+        throw new TextError(statement, "blocks instead of GOTO", "Steps know no GOTO: run the text as it is.");
       default:
         return this.run(machine.statement(statement), out);
     }

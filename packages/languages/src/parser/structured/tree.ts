@@ -50,6 +50,9 @@ export type Statement = TextPlace &
     | { readonly kind: "break" }
     | { readonly kind: "continue" }
     | { readonly kind: "halt" }
+    /** A place that GOTO goes to; only in languages that have it, and never into a block from outside. */
+    | { readonly kind: "label"; readonly name: string }
+    | { readonly kind: "goto"; readonly label: string }
     /** What a person wrote between the statements. */
     | { readonly kind: "comment"; readonly text: string }
   );
@@ -60,6 +63,8 @@ export interface Parameter {
   readonly type: string;
   readonly value?: Expression;
   readonly optional?: boolean;
+  /** What the routine gives it is handed back to the variable that was given. */
+  readonly isBack?: boolean;
 }
 export interface Routine extends TextPlace {
   readonly name: string;

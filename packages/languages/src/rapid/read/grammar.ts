@@ -134,6 +134,8 @@ const STRING_LENGTH = 80;
 /** A datum of a module or a routine. */
 export interface DataDeclaration extends TextPlace {
   readonly storage: string;
+  /** The module that alone knows it; undefined where all know it. */
+  readonly module?: string | undefined;
   readonly type: string;
   readonly name: string;
   readonly sizes: readonly Expression[];
@@ -149,7 +151,25 @@ export interface Source {
   /** Routines whose error handler goes on behind a search that found nothing. */
   readonly forgiving: ReadonlySet<string>;
   readonly spelling: ReadonlyMap<string, string>;
+  /** Components of the records that the text declares: name and type of each, by the type. */
+  readonly records: ReadonlyMap<string, readonly Component[]>;
+  /** Names that a module keeps for itself, by the module; empty for a text of one module. */
+  readonly own: ReadonlyMap<string, ReadonlySet<string>>;
+  /** The module of a routine, by its name. */
+  readonly moduleOf: ReadonlyMap<string, string>;
+  /** Whether a routine jumps by GOTO. */
+  readonly hasJumps: boolean;
 }
+export interface Component {
+  readonly name: string;
+  readonly type: string;
+}
+/** A statement of another module than the first that is not understood: that matters when it is reached. */
+export const FAULT = "\u0000fault";
+/** A call whose routine is named by a text. */
+export const LATE_CALL = "%";
+/** The name under which a routine or a datum that is LOCAL to a module is kept. */
+export const ownName = (name: string, module: string): string => `${name}@${module}`;
 export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
@@ -164,13 +184,22 @@ class Reader extends RecoveringReader {
   private readonly forgiving = new Set<string>();
   private readonly spelling = new Map<string, string>();
   private readonly remarks: string[] = [];
+  private readonly records = new Map<string, readonly Component[]>();
+  private readonly own = new Map<string, Set<string>>();
+  private readonly moduleOf = new Map<string, string>();
+  private readonly met = new Set<string>();
   private current: DataDeclaration[] | undefined;
   private title = "";
+  private modules = 0;
+  private inside = "";
+  private hasJumps = false;
+  /** What was not understood in the statement that is read, in another module than the first. */
+  private late: TextFault | undefined;
 
   constructor(text: string) {
     // The header of old save files is no RAPID.
     super(
-      text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")),
+      text.replace(/^[ \t\uFEFF]*%%%[^%]*%%%/gm, header => header.replace(/[^\r\n]/g, " ")),
       LEXICON,
     );
   }
@@ -186,24 +215,27 @@ class Reader extends RecoveringReader {
     this.guard(() => {
       cursor.advance();
     });
-    let modules = 0;
     while (!cursor.done && !this.hasEnough) {
       this.guard(() => {
         cursor.expect("module");
-        modules++;
+        this.modules++;
         this.module();
       });
     }
-    if (modules === 0 && this.faults.length === 0)
+    if (this.modules === 0 && this.faults.length === 0)
       this.faults.push(new TextError(cursor.here, "MODULE", "The text holds no module.").fault);
     if (this.faults.length > 0) return { kind: "not-understood", faults: this.faults };
-    const { data, routines, local, forgiving, spelling } = this;
+    const { data, routines, local, forgiving, spelling, records, moduleOf, hasJumps } = this;
+    const own = this.modules > 1 ? this.own : new Map<string, ReadonlySet<string>>();
     const title =
       this.remarks
         .find(remark => remark.startsWith("*"))
         ?.slice(1)
         .trim() ?? this.title;
-    return { kind: "source", source: { title, data, routines, local, forgiving, spelling } };
+    return {
+      kind: "source",
+      source: { title, data, routines, local, forgiving, spelling, records, own, moduleOf, hasJumps },
+    };
   }
 
   /** What was read, or undefined after a fault; data then belong again to where they did before. */
@@ -213,7 +245,11 @@ class Reader extends RecoveringReader {
       faults: { length },
     } = this;
     const got = super.guard(read);
-    if (this.faults.length > length) this.current = current;
+    if (this.faults.length > length) {
+      this.current = current;
+      // What is wrong in another module than the first matters where it is reached.
+      if (this.modules > 1) [this.late] = this.faults.splice(length);
+    }
     return got;
   }
   protected override restOfLine(): void {
@@ -241,8 +277,12 @@ class Reader extends RecoveringReader {
 
   private module(): void {
     const { cursor } = this;
+    // Generators name modules by numbers too, which the controller lets pass when it loads them.
+    if (cursor.isAt("number")) cursor.advance();
     const { raw } = cursor;
-    this.declared("the name of the module");
+    const { name: inside } = this.declared("the name of the module");
+    this.inside = this.own.has(inside) ? `${inside}#${this.modules}` : inside;
+    this.own.set(this.inside, new Set());
     if (this.title === "") this.title = raw;
     if (cursor.accept("(")) {
       while (!cursor.accept(")")) {
@@ -268,6 +308,12 @@ class Reader extends RecoveringReader {
     cursor.expect("endmodule");
   }
 
+  private takeLate(): TextFault | undefined {
+    const { late } = this;
+    this.late = undefined;
+    return late;
+  }
+
   private takeRemarks(): void {
     for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment())
       this.remarks.push(comment.text);
@@ -275,37 +321,56 @@ class Reader extends RecoveringReader {
 
   private member(): void {
     const { cursor } = this;
-    while (cursor.next === "local" || cursor.next === "task") cursor.advance();
+    let isOwn = false;
+    while (cursor.next === "local" || cursor.next === "task") {
+      isOwn ||= cursor.next === "local";
+      cursor.advance();
+    }
     switch (cursor.next) {
       case "const":
       case "pers":
       case "var":
-        this.datum(this.data);
+        this.datum(this.data, isOwn);
         return;
       case "record":
-        cursor.skip(each => each.next === "endrecord");
-        cursor.accept("endrecord");
+        this.record();
         return;
       case "alias":
         cursor.skip(each => each.next === ";");
         cursor.accept(";");
         return;
       case "proc":
-        this.routine("endproc", false);
+        this.routine("endproc", false, isOwn);
         return;
       case "func":
-        this.routine("endfunc", true);
+        this.routine("endfunc", true, isOwn);
         return;
       case "trap":
-        this.routine("endtrap", false);
+        this.routine("endtrap", false, isOwn);
         return;
       default:
         throw cursor.unexpected("a declaration, PROC or ENDMODULE");
     }
   }
 
+  /** `RECORD part  num count; robtarget place; ENDRECORD` */
+  private record(): void {
+    const { cursor } = this;
+    cursor.advance();
+    const { name } = this.declared("the name of the record");
+    const components: Component[] = [];
+    while (!cursor.accept("endrecord")) {
+      if (cursor.done) throw cursor.unexpected("ENDRECORD");
+      if (cursor.accept(";")) continue;
+      const type = cursor.name("the type of the component");
+      components.push({ name: cursor.name("the name of the component"), type });
+      cursor.expect(";");
+    }
+    this.records.set(name, components);
+  }
+
   /** `CONST robtarget p10{2} := …;` */
-  private datum(into: DataDeclaration[]): void {
+  private datum(into: DataDeclaration[], isOwn = false): void {
     const { cursor } = this;
     const storage = cursor.take();
     const type = cursor.name("the type of the datum");
@@ -318,17 +383,27 @@ class Reader extends RecoveringReader {
     }
     const value = cursor.accept(":=") ? readExpression(cursor, RULES) : undefined;
     cursor.expect(";");
-    if (into.some(other => other.name === name))
-      throw new TextError(at, "a name used once", `"${name}" is declared twice.`);
-    into.push({ storage, type, name, sizes, ...(value === undefined ? {} : { value }), ...at });
+    const isHidden = isOwn || (this.modules > 1 && into === this.data && this.met.has(name));
+    const module = isHidden ? this.inside : undefined;
+    if (isHidden) this.own.get(this.inside)!.add(name);
+    // A large program has thousands of data: they are looked up, not gone through.
+    const key = isHidden ? ownName(name, this.inside) : name;
+    const isTwice = into === this.data ? this.met.has(key) : into.some(other => other.name === name);
+    if (isTwice) throw new TextError(at, "a name used once", `"${name}" is declared twice.`);
+    if (into === this.data) this.met.add(key);
+    into.push({ storage, module, type, name, sizes, ...(value === undefined ? {} : { value }), ...at });
   }
 
-  private routine(end: string, hasType: boolean): void {
+  private routine(end: string, hasType: boolean, isOwn: boolean): void {
     const { cursor } = this;
     const opened = cursor.here;
     cursor.advance();
     if (hasType) cursor.name("the type of the function");
-    const { name, at } = this.declared("the name of the routine");
+    const { name: spelt, at } = this.declared("the name of the routine");
+    const isElsewhere = this.modules > 1;
+    const isHidden = isElsewhere && (isOwn || this.routines.has(spelt));
+    const name = isHidden ? ownName(spelt, this.inside) : spelt;
+    if (isHidden) this.own.get(this.inside)!.add(spelt);
     const parameters: Parameter[] = [];
     if (cursor.accept("(")) this.parameters(parameters);
     if (this.routines.has(name))
@@ -341,6 +416,7 @@ class Reader extends RecoveringReader {
     while (cursor.next !== end) this.handler(name, end);
     cursor.expect(end);
     this.routines.set(name, { name, parameters, body, ...at });
+    this.moduleOf.set(name, this.inside);
   }
 
   /** An error handler: only one that goes on behind a fruitless search means something to steps. */
@@ -363,7 +439,8 @@ class Reader extends RecoveringReader {
       if (cursor.accept("switch")) {
         into.push({ name: this.declared("the name of the parameter").name, type: "switch", optional: true });
       } else {
-        if (cursor.next === "inout" || cursor.next === "var" || cursor.next === "pers") cursor.advance();
+        const isBack = cursor.next === "inout" || cursor.next === "var" || cursor.next === "pers";
+        if (isBack) cursor.advance();
         const type = cursor.name("the type of the parameter");
         const { name } = this.declared("the name of the parameter");
         if (cursor.accept("{")) {
@@ -372,7 +449,7 @@ class Reader extends RecoveringReader {
           }
           cursor.expect("}");
         }
-        into.push({ name, type, ...(optional ? { optional } : {}) });
+        into.push({ name, type, ...(optional ? { optional } : {}), ...(isBack ? { isBack } : {}) });
       }
       if (!cursor.accept(",") && !cursor.accept("|") && cursor.next !== ")" && cursor.next !== "\\")
         throw cursor.unexpected('"," or ")"');
@@ -390,7 +467,10 @@ class Reader extends RecoveringReader {
           throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
         if (this.hasEnough) break;
         const before = cursor.here;
+        this.late = undefined;
         const statement = this.guard(() => this.statement());
+        const late = this.takeLate();
+        if (late !== undefined) statements.push(faultStatement(late));
         if (statement !== undefined) statements.push(statement);
         else if (
           before.line === cursor.here.line &&
@@ -411,6 +491,8 @@ class Reader extends RecoveringReader {
     const at = cursor.here;
     const word = cursor.next;
     if (cursor.accept(";")) return undefined;
+    if (cursor.kind === "sign" && word === "%") return this.lateCall(at);
+    if (cursor.kind === "sign" && word === "<") return this.placeholder(at);
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
     switch (word) {
       case "const":
@@ -446,11 +528,24 @@ class Reader extends RecoveringReader {
         cursor.advance();
         cursor.expect(";");
         return { kind: "halt", ...at };
-      case "goto":
+      case "goto": {
+        cursor.advance();
+        const label = cursor.name("a label");
+        cursor.expect(";");
+        this.hasJumps = true;
+        return { kind: "goto", label, ...at };
+      }
+      case "connect": {
+        cursor.advance();
+        const value = readExpression(cursor, RULES);
+        cursor.expect("with");
+        cursor.name("the name of a trap");
+        cursor.expect(";");
+        return { kind: "do", name: "connect", args: [{ value, ...at }], ...at };
+      }
       case "raise":
       case "retry":
       case "trynext":
-      case "connect":
         throw new TextError(at, "a statement of the motion program", `${word.toUpperCase()} is not executed here.`);
       default:
         break;
@@ -464,9 +559,35 @@ class Reader extends RecoveringReader {
       cursor.expect(";");
       return { kind: "assign", to, value, global: false, ...at };
     }
-    if (second === ":") throw new TextError(at, "a statement", "Labels are not executed here.");
     cursor.advance();
+    if (second === ":") {
+      cursor.advance();
+      return { kind: "label", name: word, ...at };
+    }
     return { kind: "do", name: word, args: readArguments(cursor, ";", 0), ...at };
+  }
+
+  /** `%"part"+NumToStr(n,0)%;`: the name of the routine is worked out. */
+  private lateCall(at: TextPlace): Statement {
+    const { cursor } = this;
+    cursor.advance();
+    const value = readExpression(cursor, RULES);
+    cursor.expect("%");
+    return { kind: "do", name: LATE_CALL, args: [{ value, ...at }, ...readArguments(cursor, ";", 0)], ...at };
+  }
+
+  /** `<SMT>`: a place that the editor keeps for a statement; the controller stops there. */
+  private placeholder(at: TextPlace): Statement {
+    const { cursor } = this;
+    cursor.advance();
+    const what = cursor.name("the name of a placeholder");
+    cursor.expect(">");
+    cursor.accept(";");
+    return faultStatement({
+      ...at,
+      expected: "a statement instead of the placeholder",
+      sentence: `<${what.toUpperCase()}> stands for a statement that is still to be written.`,
+    });
   }
 
   private decision(at: TextPlace): Statement {
@@ -538,6 +659,14 @@ class Reader extends RecoveringReader {
     return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
   }
 }
+
+const faultStatement = ({ line, column, expected, sentence }: TextFault): Statement => ({
+  kind: "do",
+  name: FAULT,
+  args: [expected, sentence].map(value => ({ value: { kind: "text", value, line, column }, line, column })),
+  line,
+  column,
+});
 
 const ROUTINE_ENDS = new Set(["endproc", "endfunc", "endtrap", "endmodule", "proc", "func", "trap"]);
 const ENDS = new Set([

@@ -54,6 +54,11 @@ export class Arguments {
     return found === undefined ? undefined : asNumber(this.evaluate(found), found);
   }
 
+  /** Everything that is given, as it is written. */
+  places(): readonly Expression[] {
+    return this.args.flatMap(({ value }) => (value === undefined ? [] : [value]));
+  }
+
   get count(): number {
     return this.free.length;
   }

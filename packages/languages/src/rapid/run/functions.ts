@@ -25,6 +25,11 @@ function rounded(x: Value | undefined, options: Options, at: TextPlace, cut: (x:
   return finite(cut(asNumber(x!, at) * places) / places, at);
 }
 
+function asText(value: Value | undefined, at: TextPlace): string {
+  if (typeof value !== "string") throw new TextError(at, "a text", "Something else stands where a text is expected.");
+  return value;
+}
+
 /** A robtarget with another pose. */
 function moved(
   target: Value | undefined,
@@ -54,6 +59,56 @@ export const FUNCTIONS: Readonly<Record<string, Entry>> = {
   numtostr: [
     2,
     ([x, places], _, at) => asNumber(x!, at).toFixed(Math.max(0, Math.min(15, Math.trunc(asNumber(places!, at))))),
+  ],
+  strlen: [1, ([x], _, at) => asText(x, at).length],
+  strpart: [
+    3,
+    ([x, from, count], _, at) => {
+      const text = asText(x, at);
+      const first = asNumber(from!, at);
+      const length = asNumber(count!, at);
+      if (!(first >= 1 && length >= 0 && first - 1 + length <= text.length))
+        throw new TextError(at, "a part of the text", `The text has no ${length} characters from ${first} on.`);
+      return text.slice(first - 1, first - 1 + length);
+    },
+  ],
+  strfind: [
+    3,
+    ([x, from, set], options, at) => {
+      const text = asText(x, at);
+      const signs = asText(set, at);
+      const is = (sign: string): boolean => signs.includes(sign) !== options.has("notinset");
+      const found = [...text].findIndex((sign, i) => i >= asNumber(from!, at) - 1 && is(sign));
+      return found < 0 ? text.length + 1 : found + 1;
+    },
+  ],
+  strmatch: [
+    3,
+    ([x, from, pattern], _, at) => {
+      const text = asText(x, at);
+      const found = text.indexOf(asText(pattern, at), Math.max(0, asNumber(from!, at) - 1));
+      return found < 0 ? text.length + 1 : found + 1;
+    },
+  ],
+  strmap: [
+    3,
+    ([x, from, to], _, at) => {
+      const signs = asText(from, at);
+      const others = asText(to, at);
+      return [...asText(x, at)]
+        .map(sign => (signs.includes(sign) ? (others[signs.indexOf(sign)] ?? sign) : sign))
+        .join("");
+    },
+  ],
+  numtodnum: [1, ([x], _, at) => asNumber(x!, at)],
+  dnumtonum: [1, ([x], _, at) => asNumber(x!, at)],
+  vectmagn: [1, ([x], _, at) => Math.hypot(...asPosition(x, at))],
+  dotprod: [
+    2,
+    ([a, b], _, at) => {
+      const q = asPosition(b, at);
+      return asPosition(a, at).reduce((sum, x, i) => sum + x * q[i]!, 0);
+    },
   ],
   valtostr: [1, ([x]) => (typeof x === "string" ? x : JSON.stringify(x))],
   distance: [

@@ -58,6 +58,11 @@ export class Lines {
     return Object.hasOwn(this.table, spelt) ? Number(this.read(spelt)) : undefined;
   }
 
+  /** What is said of a name from outside, if anything. */
+  given(name: string): boolean | number | undefined {
+    return this.signals?.read(name);
+  }
+
   /** What the program wrote itself counts before what is outside. */
   read(line: string): boolean | number {
     const value = this.outputs.get(line) ?? this.signals?.read(line);

@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, WaitsOutside, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -21,13 +21,13 @@ import {
   type Routine,
   type WaitUntil,
 } from "../../parser/structured/index.ts";
-import type { DataDeclaration, Source } from "../read/grammar.ts";
+import { FAULT, LATE_CALL, ownName, type DataDeclaration, type Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
 import { inverted, times, toPose, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
-import { GRIPPER, HALTS, REFUSED, SILENT } from "./instructions.ts";
+import { ANSWERS, GRIPPER, HALTS, OUTSIDE, QUESTIONS, REFUSED, SILENT } from "./instructions.ts";
 import { KIND_OF_FUNCTION, KIND_OF_WAIT, Lines } from "./lines.ts";
 import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
 import { predefined } from "./predefined.ts";
@@ -59,6 +59,16 @@ export class Machine extends BlockMachine<Value> {
   private fastest_mmps = Infinity;
   private asksConfiguration = true;
   private tool: Frame;
+  private readonly types = new Map<string, string>();
+  private making: string | undefined;
+  /** Why nobody knows where the robot is: a sentence. */
+  private lost: string | undefined;
+  private readonly triggers = new Map<
+    string,
+    { readonly signal: string; readonly to: boolean | number; readonly distance_mm: number }
+  >();
+  /** Data that something outside gave a value. */
+  private readonly foreign = new Set<string>();
 
   /** Work objects that are frames although they change: the places of a pallet that is being read. */
   get places(): Set<string> {
@@ -82,21 +92,107 @@ export class Machine extends BlockMachine<Value> {
     this.lines = new Lines(
       declared.signals,
       signals,
-      name => this.spelt(name),
-      name => this.variable(name) === undefined,
+      name => this.handedLine(name) ?? this.spelt(name),
+      name => this.isHeldElsewhere(name) || this.handedLine(name) !== undefined,
     );
     this.objects = new WorkObjects(source, changing, declared, this.arm);
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
-    for (const datum of source.data) this.make(datum, this.globals);
+    for (const { name, module, type } of source.data)
+      this.types.set(module !== undefined && source.own.size > 0 ? ownName(name, module) : name, type);
+    this.makeAll(source.data);
   }
 
   // --- data -------------------------------------------------------------------------------------------------------
 
-  private make(datum: DataDeclaration, into: Map<string, Value>): void {
-    const { name, type, value, sizes } = datum;
-    if (value !== undefined) into.set(name, this.evaluate(value));
-    else if (sizes.length > 0) into.set(name, this.empty(sizes, type));
-    else if (UNSET.has(type)) into.set(name, unsetValue(type));
+  /** Data may count on others that stand further down, or in a module behind: these are made first. */
+  private makeAll(data: readonly DataDeclaration[]): void {
+    let waiting = data;
+    let fault: TextError | undefined;
+    do {
+      const before = waiting.length;
+      fault = undefined;
+      const again: DataDeclaration[] = [];
+      for (const datum of waiting) {
+        const { name, module } = datum;
+        const key = module !== undefined && this.source.own.size > 0 ? ownName(name, module) : name;
+        this.making = module;
+        try {
+          this.make(datum, this.globals, key);
+        } catch (cause) {
+          if (!(cause instanceof TextError)) throw cause;
+          fault ??= cause;
+          again.push(datum);
+        }
+      }
+      waiting = again;
+      if (again.length === before) break;
+    } while (waiting.length > 0);
+    this.making = undefined;
+    // In another file it matters where the datum is asked for.
+    if (fault !== undefined && this.source.own.size === 0) throw fault;
+  }
+
+  private make(datum: DataDeclaration, into: Map<string, Value>, key = datum.name): void {
+    const { type, value, sizes } = datum;
+    if (value !== undefined) into.set(key, this.evaluate(value));
+    else if (sizes.length > 0) into.set(key, this.empty(sizes, type));
+    else {
+      const unset = this.unset(type);
+      if (unset !== undefined) into.set(key, unset);
+    }
+  }
+
+  /** What a datum that is given no value begins with; undefined where that is nothing that could be used. */
+  private unset(type: string, depth = 0): Value | undefined {
+    if (UNSET.has(type)) return unsetValue(type);
+    if (Object.hasOwn(EMPTY, type)) return EMPTY[type];
+    const components = this.source.records.get(type);
+    if (components === undefined || depth > RECORD_DEPTH) return undefined;
+    return components.map(each => this.unset(each.type, depth + 1) ?? 0);
+  }
+
+  /** The declared type of what an expression stands for, where it is a record of the text. */
+  private typeOf(expression: Expression): string | undefined {
+    switch (expression.kind) {
+      case "variable": {
+        const routine = this.scopes.at(-1)?.routine ?? "";
+        const local = this.source.local.get(routine)?.find(({ name }) => name === expression.name);
+        const parameter = this.source.routines.get(routine)?.parameters.find(({ name }) => name === expression.name);
+        return local?.type ?? parameter?.type ?? this.types.get(this.globalKey(expression.name));
+      }
+      case "index":
+        return this.typeOf(expression.of);
+      case "component": {
+        const components = this.source.records.get(this.typeOf(expression.of) ?? "");
+        return components?.find(({ name }) => name === expression.name)?.type;
+      }
+      default:
+        return undefined;
+    }
+  }
+
+  /** Where a component stands in its record: one that the text declares, or one of the controller. */
+  private componentOf(of: Expression, record: readonly Value[], name: string): number | undefined {
+    const components = this.source.records.size > 0 ? this.source.records.get(this.typeOf(of) ?? "") : undefined;
+    const at = components?.findIndex(each => each.name === name) ?? -1;
+    return at >= 0 ? at : placeOf(record, name);
+  }
+
+  /** The module of the routine that is carried out. */
+  private get module(): string | undefined {
+    const routine = this.scopes.at(-1)?.routine;
+    return routine === undefined ? this.making : this.source.moduleOf.get(routine);
+  }
+
+  /** The name under which a datum of all or of the module is kept. */
+  private globalKey(name: string): string {
+    if (this.source.own.size === 0) return name;
+    const { module } = this;
+    return module !== undefined && this.source.own.get(module)?.has(name) === true ? ownName(name, module) : name;
+  }
+
+  override routine(name: string): Routine | undefined {
+    return super.routine(this.globalKey(name)) ?? super.routine(name);
   }
 
   private empty(sizes: readonly Expression[], type: string): Value {
@@ -104,7 +200,7 @@ export class Machine extends BlockMachine<Value> {
     const length = this.numberOf(size!);
     if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS)
       throw new TextError(size!, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
-    return Array.from({ length }, (): Value => (rest.length > 0 ? this.empty(rest, type) : unsetValue(type)));
+    return Array.from({ length }, (): Value => (rest.length > 0 ? this.empty(rest, type) : (this.unset(type) ?? 0)));
   }
 
   protected override prepare(routine: Routine, names: Map<string, Value>): void {
@@ -113,7 +209,7 @@ export class Machine extends BlockMachine<Value> {
 
   *main(): Generator<Executed, Flow> {
     const main = this.entry();
-    return main === undefined ? "next" : yield* this.call(main, [], main);
+    return main === undefined || !this.startsAlone(main) ? "next" : yield* this.call(main, [], main);
   }
 
   /** Arguments without those that hang on an optional parameter which the routine was not given. */
@@ -139,17 +235,59 @@ export class Machine extends BlockMachine<Value> {
     let place = 0;
     return yield* super.call(
       routine,
-      given.map(each => (each.name === undefined ? { ...each, name: required[place++]!.name } : each)),
+      this.linesByName(
+        routine,
+        given.map(each => (each.name === undefined ? { ...each, name: required[place++]!.name } : each)),
+      ),
       at,
     );
   }
 
+  protected override handBack(routine: Routine, names: ReadonlyMap<string, Value>, args: readonly Argument[]): void {
+    for (const { name, isBack } of routine.parameters) {
+      if (isBack !== true) continue;
+      const given = args.find(argument => argument.name === name)?.value;
+      const value = names.get(name);
+      if (given === undefined || value === undefined || !isPlace(given)) continue;
+      if (this.isConstantParameter(given)) continue;
+      this.store(given, value);
+    }
+  }
+
+  /** Data of the controller are only read. */
+  private isConstantParameter(given: Expression): boolean {
+    let of = given;
+    while (of.kind === "index" || of.kind === "component") ({ of } = of);
+    return of.kind !== "variable" || (!this.isDatum(of.name) && this.scopes.at(-1)?.names.has(of.name) !== true);
+  }
+
   /** PROC main, or the only routine there is. */
   entry(): Routine | undefined {
-    return (
-      this.source.routines.get("main") ??
-      (this.source.routines.size === 1 ? [...this.source.routines.values()][0] : undefined)
+    const main = this.source.routines.get("main");
+    if (main !== undefined || this.source.routines.size === 0) return main;
+    const all = [...this.source.routines.values()];
+    const alone = all.length === 1 ? all[0]! : undefined;
+    if (alone === undefined)
+      this.remark(
+        "main",
+        all[0]!,
+        "PROC main",
+        "No module that is open has PROC main: no routine is run. Put the module that calls them beside it.",
+      );
+    return alone;
+  }
+
+  /** Whether a routine can be started by itself: one that wants arguments has nobody who gives them. */
+  private startsAlone({ name, parameters, ...at }: Routine): boolean {
+    const asked = parameters.filter(({ optional }) => optional !== true).map(each => this.spelt(each.name));
+    if (asked.length === 0) return true;
+    this.remark(
+      "arguments",
+      placeOnly(at),
+      "the routine that calls this one",
+      `${this.spelt(name)} wants to be given ${asked.join(", ")}: it is not run by itself. Open it with the module that calls it.`,
     );
+    return false;
   }
 
   /** The body of the entry with its data made, to be written down. */
@@ -163,7 +301,7 @@ export class Machine extends BlockMachine<Value> {
   }
 
   variable(name: string): Value | undefined {
-    return this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name) ?? this.known.get(name);
+    return this.scopes.at(-1)?.names.get(name) ?? this.globals.get(this.globalKey(name)) ?? this.known.get(name);
   }
 
   evaluate(expression: Expression): Value {
@@ -178,7 +316,9 @@ export class Machine extends BlockMachine<Value> {
           throw new TextError(
             expression,
             "a datum that has a value",
-            `"${this.spelt(expression.name)}" has no value here.`,
+            this.foreign.has(expression.name)
+              ? `"${this.spelt(expression.name)}" is what another machine answers: it is not known here.`
+              : `"${this.spelt(expression.name)}" has no value here.`,
           );
         return value;
       }
@@ -193,7 +333,7 @@ export class Machine extends BlockMachine<Value> {
         }, this.evaluate(expression.of));
       case "component": {
         const record = this.evaluate(expression.of);
-        const place = typeof record === "object" ? placeOf(record, expression.name) : undefined;
+        const place = typeof record === "object" ? this.componentOf(expression.of, record, expression.name) : undefined;
         const value = typeof record === "object" && place !== undefined ? record[place] : undefined;
         if (value === undefined)
           throw new TextError(
@@ -206,10 +346,50 @@ export class Machine extends BlockMachine<Value> {
       case "unary":
         return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
       case "binary":
+        if (COMPARES.has(expression.sign)) this.takeForLine(expression.left);
         return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
       case "call":
         return this.function(expression);
     }
+  }
+
+  /** The line that a parameter of a routine stands for. */
+  private handedLine(name: string): string | undefined {
+    const scope = this.scopes.at(-1);
+    const value = scope?.names.get(name);
+    if (scope === undefined || typeof value !== "string") return undefined;
+    const parameter = this.source.routines.get(scope.routine)?.parameters.find(each => each.name === name);
+    return parameter !== undefined && SIGNAL_TYPE.test(parameter.type) ? value : undefined;
+  }
+
+  /** Lines are handed to a routine by their names. */
+  private linesByName(routine: Routine, args: readonly Argument[]): readonly Argument[] {
+    if (!routine.parameters.some(({ type }) => SIGNAL_TYPE.test(type))) return args;
+    return args.map(argument => {
+      const { name, value } = argument;
+      const type = routine.parameters.find(each => each.name === name)?.type ?? "";
+      if (value?.kind !== "variable" || !SIGNAL_TYPE.test(type)) return argument;
+      const { line, column } = value;
+      const spelt = this.handedLine(value.name) ?? this.spelt(value.name);
+      return { ...argument, value: { kind: "text", value: spelt, line, column } };
+    });
+  }
+
+  /** A name that is no datum, compared with a value, is that of a line. */
+  private takeForLine(expression: Expression): void {
+    if (
+      expression.kind === "variable" &&
+      this.variable(expression.name) === undefined &&
+      !this.isDatum(expression.name)
+    )
+      if (this.lines.level(expression.name) === undefined) this.lines.line(expression.name, "digital-in");
+  }
+
+  private isDatum(name: string): boolean {
+    return (
+      this.types.has(this.globalKey(name)) ||
+      this.source.local.get(this.scopes.at(-1)?.routine ?? "")?.some(each => each.name === name) === true
+    );
   }
 
   isTrue(expression: Expression): boolean {
@@ -230,13 +410,13 @@ export class Machine extends BlockMachine<Value> {
         data?.some(({ name }) => name === to.name) === true;
       if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine))))
         scope.names.set(to.name, value);
-      else if (this.globals.has(to.name) || declares(this.source.data)) this.globals.set(to.name, value);
+      else if (this.types.has(this.globalKey(to.name))) this.globals.set(this.globalKey(to.name), value);
       else throw new TextError(to, "a datum that is declared", `"${this.spelt(to.name)}" is not declared.`);
       return;
     }
     if (to.kind === "component") {
       const record = this.evaluate(to.of);
-      const place = typeof record === "object" ? placeOf(record, to.name) : undefined;
+      const place = typeof record === "object" ? this.componentOf(to.of, record, to.name) : undefined;
       if (typeof record !== "object" || place === undefined || place >= record.length)
         throw new TextError(to, "a component of the record", `There is no component "${to.name}" here.`);
       return this.store(to.of, record.with(place, value));
@@ -260,6 +440,16 @@ export class Machine extends BlockMachine<Value> {
     const routine = this.routine(name);
     if (routine !== undefined) return this.answer(routine, given, expression);
     const args = new Arguments(name, given, expression, each => this.evaluate(each));
+    switch (name) {
+      case "crobt":
+      case "cjointt":
+      case "cpos":
+        if (this.lost !== undefined)
+          throw new TextError(expression, "a position that is known", `${this.lost} Where it is now is not known.`);
+        break;
+      default:
+        break;
+    }
     switch (name) {
       case "crobt": {
         const base = times(this.arm.flange, this.tool);
@@ -293,6 +483,29 @@ export class Machine extends BlockMachine<Value> {
         const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
       }
+      case "strtoval": {
+        const to = given[1]?.value;
+        const text = args.value(0, "a text");
+        const value = typeof text === "string" ? readValue(text) : undefined;
+        if (to === undefined || value === undefined) return false;
+        this.store(to, value);
+        return true;
+      }
+      case "dim": {
+        const array = args.value(0, "an array");
+        const depth = args.number(1, "the dimension");
+        let part: Value | undefined = array;
+        for (let i = 1; i < depth; i++) part = typeof part === "object" ? part[0] : undefined;
+        if (typeof part !== "object") throw new TextError(expression, "an array", "Dim asks for the size of an array.");
+        return part.length;
+      }
+      case "gettaskname":
+        return "T_ROB1";
+      case "opmode":
+      case "clkread":
+      case "runmode":
+      case "robos":
+        return this.ofController(name, expression);
       case "isfile":
       case "present": {
         const parameter = given[0]?.value;
@@ -312,6 +525,19 @@ export class Machine extends BlockMachine<Value> {
         `${name} takes ${count} argument${count === 1 ? "" : "s"}; ${args.count} are given.`,
       );
     return run(args.values(), args.options(), expression);
+  }
+
+  /** What only a controller knows: taken as for one that runs in automatic, and no time passes. */
+  private ofController(name: string, at: TextPlace): Value {
+    this.remark(
+      name,
+      at,
+      "a value in the text",
+      name === "clkread"
+        ? "ClkRead measures time, which does not pass here: it reads 0."
+        : `${this.spelt(name)} is asked of the controller: it runs in automatic here.`,
+    );
+    return name === "robos" ? false : name === "clkread" ? 0 : 1;
   }
 
   private jointsNow(at: TextPlace): Value {
@@ -363,6 +589,8 @@ export class Machine extends BlockMachine<Value> {
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
     const { name } = statement;
+    if (name === FAULT || name === LATE_CALL) return yield* this.unread(statement);
+    if (Object.hasOwn(WITH_EVENT, name)) return yield* this.withEvent(statement, WITH_EVENT[name]!);
     const args = new Arguments(this.spelt(name), this.present(statement.args), statement, each => this.evaluate(each));
     if (HALTS.has(name)) {
       yield this.done(statement, { id: this.stepId(statement), type: "stop" });
@@ -373,14 +601,83 @@ export class Machine extends BlockMachine<Value> {
     return undefined;
   }
 
+  /** A statement that was not understood, or a call whose routine is named by a text. */
+  private *unread(statement: Do): Generator<Executed, Flow> {
+    const [first, second, ...others] = statement.args;
+    if (statement.name === FAULT) {
+      const text = (argument: Argument | undefined): string =>
+        argument?.value?.kind === "text" ? argument.value.value : "";
+      throw new TextError(statement, text(first), text(second));
+    }
+    const called = first?.value === undefined ? "" : this.evaluate(first.value);
+    const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
+    if (routine === undefined)
+      throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+    return yield* this.call(routine, second === undefined ? others : [second, ...others], statement);
+  }
+
+  /** A motion with something that happens on its way: at its end here, which is said where it is not that. */
+  private *withEvent(statement: Do, { motion, event }: WithEvent): Generator<Executed, Flow> {
+    const isArc = motion === "movec";
+    const free = statement.args.filter(each => each.name === undefined);
+    const at = event === "trigg" ? (isArc ? 3 : 2) : -1;
+    const last = isArc ? 5 : 4;
+    const events = event === "trigg" ? free.slice(at, at + 1) : free.slice(last);
+    const rest = statement.args.filter(each => !events.includes(each) && !/^t[2-8]$/.test(each.name ?? ""));
+    const triggers = event === "trigg" ? statement.args.filter(each => /^t[2-8]$/.test(each.name ?? "")) : [];
+    const move = new Arguments(this.spelt(motion), this.present(rest), statement, each => this.evaluate(each));
+    yield this.done(statement, this.move(motion, move, this.stepId(statement)));
+    switch (event) {
+      case "do":
+      case "ao": {
+        const [signal, value] = events.map(each => each.value!);
+        if (signal?.kind !== "variable" || value === undefined)
+          throw new TextError(statement, "a line and its value", `${this.spelt(statement.name)} sets a line.`);
+        const number = this.numberOf(value);
+        yield this.done(statement, this.write(signal.name, event === "do" ? number !== 0 : number, statement));
+        return "next";
+      }
+      case "sync": {
+        const called = events[0]?.value === undefined ? "" : this.evaluate(events[0].value);
+        const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
+        if (routine === undefined)
+          throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+        return yield* this.call(routine, [], statement);
+      }
+      case "trigg":
+        for (const { value } of [...events, ...triggers]) yield* this.trigger(value, statement);
+        return "next";
+    }
+  }
+
+  /** What TriggIO or TriggEquip said is done on the way. */
+  private *trigger(of: Expression | undefined, at: TextPlace): Generator<Executed, void> {
+    const known = of?.kind === "variable" ? this.triggers.get(of.name) : undefined;
+    if (of?.kind !== "variable" || known === undefined)
+      throw new TextError(at, "TriggIO or TriggEquip before it", "What happens on the way is not said before.");
+    if (known.distance_mm !== 0)
+      this.remark(
+        `trigger ${of.name}`,
+        at,
+        "an event at the end of the motion",
+        `${this.spelt(of.name)} acts at the end of the motion here, and not ${known.distance_mm} mm from it.`,
+      );
+    yield this.done(at, this.write(known.signal, known.to, at));
+  }
+
   private step(name: string, args: Arguments, at: TextPlace): Step | undefined {
     const id = (): string => this.stepId(at);
     switch (name) {
       case "moveabsj":
       case "movej":
       case "movel":
-      case "movec":
-        return this.move(name, args, id());
+      case "movec": {
+        const goal = args.given(name === "movec" ? 1 : 0, "a target");
+        if (this.leaveOut(goal)) return undefined;
+        const step = this.move(name, args, id());
+        this.lost = undefined;
+        return step;
+      }
       case "searchl":
       case "searchc":
         return this.search(name, args, id());
@@ -425,14 +722,91 @@ export class Machine extends BlockMachine<Value> {
       case "confj":
         this.asksConfiguration = !args.has("off");
         return undefined;
+      case "incr":
+      case "decr":
+      case "add":
+      case "clear":
+        return this.counted(name, args);
+      case "invertdo": {
+        const line = args.nameOf(0, "a line");
+        const level = this.lines.read(this.lines.line(line, "digital-out"));
+        return this.write(line, level !== true, at);
+      }
+      case "setgo":
+        return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
+      case "triggio":
+      case "triggequip":
+        return this.defineTrigger(args);
       default:
         if (SILENT.has(name)) return undefined;
+        if (QUESTIONS.has(name)) return this.asked(args, at);
+        if (ANSWERS.has(name)) return this.answered(name, args, at);
+        if (OUTSIDE.has(name)) {
+          this.remark(
+            `${name} ${at.line}`,
+            at,
+            "a statement about the robot",
+            `${this.spelt(name)} is kept and not executed: it does not move the robot.`,
+          );
+          return undefined;
+        }
         throw new TextError(
           at,
           "an instruction of RAPID",
           REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`,
         );
     }
+  }
+
+  private counted(name: string, args: Arguments): undefined {
+    const to = args.given(0, "a datum");
+    const now = name === "clear" ? 0 : this.numberOf(to);
+    this.store(
+      to,
+      name === "incr" ? now + 1 : name === "decr" ? now - 1 : name === "add" ? now + args.number(1, "a number") : 0,
+    );
+    return undefined;
+  }
+
+  private defineTrigger(args: Arguments): undefined {
+    const name = args.nameOf(0, "the name of the event");
+    const line = args.optionGiven("dop") ?? args.optionGiven("gop") ?? args.optionGiven("aop");
+    if (line?.kind !== "variable") throw new TextError(args.at, "\\DOp:=line", "The event sets no line.");
+    const shift = args.count - 2;
+    const value = args.number(shift + 1, "a value");
+    this.triggers.set(name, {
+      signal: line.name,
+      to: args.has("dop") ? value !== 0 : value,
+      distance_mm: args.has("start") ? Number.NaN : args.number(1, "a distance"),
+    });
+    return undefined;
+  }
+
+  /** The operator is asked: the program goes on with an answer that is given by hand, as an input of that name. */
+  private asked(args: Arguments, at: TextPlace): undefined {
+    const to = args.given(0, "a datum");
+    const name = to.kind === "variable" ? this.spelt(to.name) : "answer";
+    const answer = this.lines.given(name);
+    if (typeof answer !== "number") throw new WaitsOutside(at, "program", name);
+    this.store(to, answer);
+    return undefined;
+  }
+
+  /** Something outside answers into data: what these are worth is not known, and asking for them is refused. */
+  private answered(name: string, args: Arguments, at: TextPlace): undefined {
+    for (const expression of args.places()) {
+      if (expression.kind !== "variable") continue;
+      this.scopes.at(-1)?.names.delete(expression.name);
+      this.globals.delete(this.globalKey(expression.name));
+      this.foreign.add(expression.name);
+    }
+    this.remark(
+      `${name} ${at.line}`,
+      at,
+      "a statement about the robot",
+      `${this.spelt(name)} is kept and not executed: what another machine answers is not known.`,
+    );
+    return undefined;
   }
 
   private wait(name: string, args: Arguments, at: TextPlace): Step {
@@ -517,13 +891,24 @@ export class Machine extends BlockMachine<Value> {
       this.arm.atJoints(joints);
       return { ...common, path: "ptp", target: { q: this.arm.axes.radians(joints), tool } };
     }
-    const frame = object === undefined ? WORLD : this.objects.of(object, of => this.evaluate(of));
+    const frame = object === undefined ? WORLD : this.workObject(object);
     const target = this.target(goal, frame, tool, name === "movej", true);
     const passing = via === undefined ? {} : { via: this.target(via, frame, tool, false, false) };
     return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
   }
 
   private useTool(tool: Expression): string {
+    if (tool.kind === "variable" && this.isHeldElsewhere(tool.name)) {
+      this.remark(
+        `tool ${tool.name}`,
+        tool,
+        "the module that declares the tool",
+        `The tool ${this.spelt(tool.name)} is declared in no file that is open: the flange is taken for it.`,
+      );
+      this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
+      this.arm.tool = this.tool;
+      return nameIn(this.declared.tools, toPose<"flange", "tcp">(this.tool), this.spelt(tool.name), "_");
+    }
     this.tool = toolFrameOf(this.evaluate(tool), tool);
     this.arm.tool = this.tool;
     if (tool.kind === "variable" && tool.name === "tool0") return "flange";
@@ -533,6 +918,37 @@ export class Machine extends BlockMachine<Value> {
       tool.kind === "variable" ? this.spelt(tool.name) : "tool",
       "_",
     );
+  }
+
+  private isHeldElsewhere(name: string): boolean {
+    return this.variable(name) === undefined && !this.isDatum(name) && !this.foreign.has(name);
+  }
+
+  private workObject(object: Expression): WorkObject {
+    if (object.kind !== "variable" || !this.isHeldElsewhere(object.name))
+      return this.objects.of(object, of => this.evaluate(of));
+    this.remark(
+      `object ${object.name}`,
+      object,
+      "the module that declares the work object",
+      `The work object ${this.spelt(object.name)} is declared in no file that is open: the base of the robot is taken for it.`,
+    );
+    return WORLD;
+  }
+
+  /** A point that no file declares: nobody can go there. */
+  private leaveOut(goal: Expression): boolean {
+    let of = goal;
+    while (of.kind === "call" && of.args[0]?.value !== undefined && SHIFTS.has(of.name)) of = of.args[0].value;
+    if (of.kind !== "variable" || !this.isHeldElsewhere(of.name)) return false;
+    this.remark(
+      `point ${of.name}`,
+      goal,
+      "the module that declares the point",
+      `The motion to ${this.spelt(of.name)} is left out: no file that is open declares the point. The robot goes on to the next point from where it is.`,
+    );
+    this.lost = "The robot was to be at a point that no open file declares.";
+    return true;
   }
 
   private target(
@@ -594,5 +1010,71 @@ export class Machine extends BlockMachine<Value> {
   }
 }
 
+const SIGNAL_TYPE = /^signal[dag][io]$/;
+const COMPARES = new Set(["=", "<>", "<", ">", "<=", ">="]);
+/** Functions that shift a point. */
+const SHIFTS = new Set(["offs", "reltool"]);
+const RECORD_DEPTH = 10;
+interface WithEvent {
+  readonly motion: "movej" | "movel" | "movec";
+  readonly event: "do" | "ao" | "sync" | "trigg";
+}
+/** Motions with something that happens on their way. */
+const WITH_EVENT: Readonly<Record<string, WithEvent>> = {
+  movejdo: { motion: "movej", event: "do" },
+  moveldo: { motion: "movel", event: "do" },
+  movecdo: { motion: "movec", event: "do" },
+  movejao: { motion: "movej", event: "ao" },
+  movelao: { motion: "movel", event: "ao" },
+  movecao: { motion: "movec", event: "ao" },
+  movejsync: { motion: "movej", event: "sync" },
+  movelsync: { motion: "movel", event: "sync" },
+  movecsync: { motion: "movec", event: "sync" },
+  triggj: { motion: "movej", event: "trigg" },
+  triggl: { motion: "movel", event: "trigg" },
+  triggc: { motion: "movec", event: "trigg" },
+};
+/** The value that a text spells: a number, TRUE or FALSE, or a record of them. */
+function readValue(text: string): Value | undefined {
+  const plain = text
+    .trim()
+    .replace(/\bTRUE\b/gi, "true")
+    .replace(/\bFALSE\b/gi, "false");
+  try {
+    const value: unknown = JSON.parse(plain.replace(/(^|[[,\s-])\.(\d)/g, "$10.$2").replace(/(\d)\.(?!\d)/g, "$1"));
+    return isValue(value) ? value : undefined;
+  } catch (cause) {
+    if (cause instanceof SyntaxError) return undefined;
+    throw cause;
+  }
+}
+const isValue = (value: unknown): value is Value =>
+  typeof value === "number" ||
+  typeof value === "boolean" ||
+  typeof value === "string" ||
+  (Array.isArray(value) && value.every(isValue));
+
+const placeOnly = ({ line, column }: TextPlace): TextPlace => ({ line, column });
+const isPlace = (expression: Expression): boolean =>
+  expression.kind === "variable" || expression.kind === "component" || expression.kind === "index";
+
 const unsetValue = (type: string): Value => (type === "bool" ? false : type === "string" ? "" : 0);
+const POSE_0: Value = [
+  [0, 0, 0],
+  [0, 0, 0, 0],
+];
+const NO_EXTERNAL: Value = [0, 0, 0, 0, 0, 0];
+/** Records of the controller that are given no value: all nought. */
+const EMPTY: Readonly<Record<string, Value>> = {
+  pos: [0, 0, 0],
+  orient: [0, 0, 0, 0],
+  pose: POSE_0,
+  confdata: [0, 0, 0, 0],
+  robjoint: [0, 0, 0, 0, 0, 0],
+  extjoint: NO_EXTERNAL,
+  robtarget: [[0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], NO_EXTERNAL],
+  jointtarget: [[0, 0, 0, 0, 0, 0], NO_EXTERNAL],
+  speeddata: [0, 0, 0, 0],
+  wobjdata: [false, true, "", POSE_0, POSE_0],
+};
 const NO_AXES: Value = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];

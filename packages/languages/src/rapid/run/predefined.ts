@@ -30,6 +30,12 @@ export function predefined(fullSpeed_mps: number): ReadonlyMap<string, Value> {
     ["high", 1],
     ["low", 0],
     ["edge", 2],
+    ["op_undef", 0],
+    ["op_auto", 1],
+    ["op_man_prog", 2],
+    ["op_man_test", 3],
+    ["stempty", ""],
+    ["diskhome", "HOME:"],
   ]);
   for (const v of SPEEDS) data.set(`v${v}`, [v, 500, 5000, 1000]);
   for (const [tool, orient, turn] of ZONES)

@@ -2,9 +2,12 @@ import {
   branchOf,
   compose,
   inverse,
+  listsOf,
   pose,
   rotate,
+  isCondition,
   type Condition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PayloadStep,
@@ -20,13 +23,17 @@ import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
   BlockWriter,
+  PENDANT_UNITS,
   UnsupportedStep,
   Place,
+  assignText,
+  expressionText,
   called,
   fixed,
   patternOf,
   pitchTerm,
   remark,
+  type ExpressionWords,
   type Pattern,
   shownAxes,
 } from "../../emitter/index.ts";
@@ -69,6 +76,11 @@ export class ProgramWriter extends BlockStepWriter {
     } = this;
     const name = data.names.of("module", program.name);
     for (const signal of Object.keys(program.signals)) this.signalName(signal);
+    for (const [variable, { type }] of Object.entries(program.variables ?? {}))
+      data.add(
+        `variable ${variable}`,
+        `VAR ${type === "bool" ? "bool" : "num"} ${this.variableName(variable)}:=${type === "bool" ? "FALSE" : "0"};`,
+      );
     for (const [routine, steps] of Object.entries(program.routines))
       this.routine(data.names.of("routine", routine), steps, false);
     this.routine("main", program.steps, true);
@@ -129,11 +141,7 @@ export class ProgramWriter extends BlockStepWriter {
     const look = (list: readonly Step[]): void => {
       for (const step of list) {
         if (step.type === "move" && step.until !== undefined) found.push(step);
-        if (step.type === "repeat" || step.type === "pallet") look(step.steps);
-        if (step.type === "if") {
-          look(step.then);
-          look(step.else ?? []);
-        }
+        for (const inner of listsOf(step)) look(inner);
       }
     };
     look(steps);
@@ -188,6 +196,10 @@ export class ProgramWriter extends BlockStepWriter {
         return add("EXIT;");
       case "comment":
         return add(`!- ${asciiText(step.text)}`.trimEnd());
+      case "assign":
+        return add(`${assignText(step, ":=", this.words, this.place.program)};`);
+      case "while":
+        return this.loop(`WHILE ${this.condition(step.when, step)} DO`, "ENDWHILE", step);
       case "call":
         add(`${this.data.names.of("routine", step.routine)};`);
         return this.begin();
@@ -330,6 +342,7 @@ export class ProgramWriter extends BlockStepWriter {
 
   private waitFor(step: Extract<Step, { type: "wait-for" }>, add: (line: string) => void): void {
     const { when } = step;
+    if (!isCondition(when)) return add(`WaitUntil ${this.condition(when, step)};`);
     const { name, kind } = this.lineOf(when.signal, step);
     const limit = step.timeout_s === undefined ? "" : `\\MaxTime:=${part(step.timeout_s)}`;
     const word = { "digital-in": "WaitDI", "digital-out": "WaitDO", "analogue-in": "WaitAI", "analogue-out": "WaitAO" }[
@@ -346,7 +359,48 @@ export class ProgramWriter extends BlockStepWriter {
     );
   }
 
-  private condition(when: Condition, step: Step): string {
+  private variableName(variable: string): string {
+    return this.data.names.of("variable", variable);
+  }
+
+  private readonly words: ExpressionWords = {
+    truth: ["FALSE", "TRUE"],
+    number: part,
+    variable: name => this.variableName(name),
+    line: (signal, step, isDigital) => {
+      const { name, kind } = this.lineOf(signal, step);
+      const word = kind.endsWith("-in") ? "Input" : "Output";
+      return isDigital ? `D${word}(${name})=1` : `A${word}(${name})`;
+    },
+    not: inner => `NOT ${inner}`,
+    signs: {
+      and: " AND ",
+      or: " OR ",
+      "=": "=",
+      "<>": "<>",
+      "<": "<",
+      "<=": "<=",
+      ">": ">",
+      ">=": ">=",
+      "+": "+",
+      "-": "-",
+      "*": "*",
+      "/": "/",
+      div: " DIV ",
+      mod: " MOD ",
+    },
+    calls: {
+      abs: x => `Abs(${x})`,
+      sqrt: x => `Sqrt(${x})`,
+      sin: x => `Sin(${x})`,
+      cos: x => `Cos(${x})`,
+      trunc: x => `Trunc(${x})`,
+    },
+    scale: PENDANT_UNITS,
+  };
+
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.words, this.place.program, step);
     const { name, kind } = this.lineOf(when.signal, step);
     const word = {
       "digital-in": "DInput",

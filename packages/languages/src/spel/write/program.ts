@@ -54,6 +54,8 @@ export class SpelProgram extends BasicModules {
         close: "Fend",
         endIf: "EndIf",
         forever: ["Do", "Loop"],
+        whileTrue: ["Do While", "Loop"],
+        global: (name, type) => `Global ${type === "num" ? "Real" : "Integer"} ${name}`,
         mm: mmText,
         most: { tools: MOST, frames: MOST, called: "locals" },
         lines: LINES,

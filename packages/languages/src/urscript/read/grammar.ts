@@ -106,6 +106,8 @@ export interface Source {
   readonly title: string;
   readonly routines: ReadonlyMap<string, Routine>;
   readonly main: Block;
+  /** What the program that is started wants to be given. */
+  readonly parameters: readonly Parameter[];
   /** Tasks beside the program, which are kept and not executed. */
   readonly threads: ReadonlyMap<string, Routine>;
 }
@@ -151,6 +153,7 @@ class Reader extends RecoveringReader {
           title: titleOf(loose) ?? entry?.name ?? "Program",
           routines: this.routines,
           main: loose,
+          parameters: [],
           threads: this.threads,
         },
       };
@@ -161,6 +164,7 @@ class Reader extends RecoveringReader {
         title: titleOf(entry.body) ?? entry.name,
         routines: this.routines,
         main: entry.body,
+        parameters: entry.parameters,
         threads: this.threads,
       },
     };
@@ -180,7 +184,9 @@ class Reader extends RecoveringReader {
         return undefined;
       }
       const statement = this.statement();
-      if (!cursor.isAt("end") && cursor.next !== ";") {
+      // `if c: movej(q) end` closes its block in the line that opens it.
+      const closes = cursor.isAt("word") && CLOSES.has(cursor.next);
+      if (!cursor.isAt("end") && cursor.next !== ";" && !closes) {
         if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the statement");
         cursor.advance();
       }
@@ -375,6 +381,7 @@ function titleOf(block: Block): string | undefined {
   return first?.kind === "comment" && first.text.startsWith("*") ? first.text.slice(1).trim() : undefined;
 }
 
+const CLOSES: ReadonlySet<string> = new Set(["end", "elif", "else"]);
 /** Instructions that only let time pass. */
 const IDLE = new Set(["sync", "sleep"]);
 

@@ -12,6 +12,8 @@ import {
 import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
+  changedNames,
+  type Block,
   type Do,
   type Expression,
   type Flow,
@@ -65,11 +67,17 @@ export class Machine extends BlockMachine<Value> {
   /** Speed at which the slowest joint turns, so that all can [rad/s]. */
   private readonly full_rad_s: number;
   private readonly constants: ReadonlySet<string>;
+  /** Names that some statement of the text gives a value. */
+  private readonly assigned: ReadonlySet<string>;
   private readonly outputs = new Map<string, boolean | number>();
   private readonly signals: Signals | undefined;
   /** Variables whose value another machine gave, and how. */
   private readonly outside = new Map<string, string>();
   private tool = "flange";
+  /** What the program that is started wants to be given, if anything. */
+  private readonly isAsking: string | undefined;
+  /** Why nobody knows where the robot is: a sentence. */
+  private lost: string | undefined;
   /** Whether the tool was set where the program is now; joint angles alone do not ask for one. */
   private hasTool = false;
   /** Variables whose pose is a frame although it changes: the places of a pallet that is being read. */
@@ -89,7 +97,60 @@ export class Machine extends BlockMachine<Value> {
     this.full_rad_s = robot.arm.joints.reduce((least, { limits }) => Math.min(least, limits.speed_rad_s), Infinity);
     this.declared = declared;
     this.constants = constants;
+    this.assigned = changedNames([source.main, ...[...source.routines.values()].map(({ body }) => body)]);
+    const asked = source.parameters.filter(({ value }) => value === undefined);
+    this.isAsking = asked.length > 0 ? asked.map(({ name }) => name).join(", ") : undefined;
+    for (const { name, value } of source.parameters)
+      if (value !== undefined) this.globals.set(name, this.evaluate(value));
     this.signals = signals;
+  }
+
+  /** The program; one that wants arguments is not started by itself. */
+  *start(main: Block): Generator<Executed, Flow> {
+    if (this.isAsking === undefined) return yield* this.block(main);
+    this.remark(
+      "arguments",
+      main[0] ?? { line: 1, column: 1 },
+      "the program that calls this one",
+      `The program wants to be given ${this.isAsking}: it is not run by itself. Open it with the program that calls it.`,
+    );
+    return "next";
+  }
+
+  /** A name that the text gives no value: the program around this file does. */
+  private isOfAnother(name: string): boolean {
+    return this.variable(name) === undefined && !this.assigned.has(name) && !this.outside.has(name);
+  }
+
+  /** Such a name where a condition stands is an input that somebody sets by hand. */
+  private asInput(expression: Expression): boolean | undefined {
+    if (expression.kind !== "variable" || !this.isOfAnother(expression.name)) return undefined;
+    const { name } = expression;
+    this.declared.signals[name] ??= { kind: "digital-in" };
+    this.remark(
+      `input ${name}`,
+      expression,
+      "the program around this file",
+      `"${name}" gets its value in no file that is open: it counts as an input, off until it is given by hand.`,
+    );
+    return this.signals?.read(name) === true;
+  }
+
+  /** A point that no open file gives: nobody can go there. */
+  private leaveOut(statement: Do): boolean {
+    const goal =
+      statement.args.find(({ name }) => name === "q" || name === "pose") ??
+      statement.args[statement.name === "movec" ? 1 : 0];
+    const value = goal?.value;
+    if (value?.kind !== "variable" || !this.isOfAnother(value.name)) return false;
+    this.remark(
+      `point ${value.name}`,
+      statement,
+      "the program around this file",
+      `The motion to ${value.name} is left out: no file that is open gives the point. The robot goes on to the next point from where it is.`,
+    );
+    this.lost = "The robot was to be at a point that no open file gives.";
+    return true;
   }
 
   // --- values -----------------------------------------------------------------------------------------------------
@@ -134,7 +195,8 @@ export class Machine extends BlockMachine<Value> {
         return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
       case "binary": {
         const { sign } = expression;
-        const left = this.evaluate(expression.left);
+        const isTruth = expression.right.kind === "truth" || sign === "and" || sign === "or";
+        const left = (isTruth ? this.asInput(expression.left) : undefined) ?? this.evaluate(expression.left);
         if (sign === "and" && left === false) return false;
         return sign === "or" && left === true ? true : binary(sign, left, this.evaluate(expression.right), expression);
       }
@@ -144,7 +206,7 @@ export class Machine extends BlockMachine<Value> {
   }
 
   isTrue(expression: Expression): boolean {
-    return asTruth(this.evaluate(expression), expression);
+    return this.asInput(expression) ?? asTruth(this.evaluate(expression), expression);
   }
   numberOf(expression: Expression): number {
     return asNumber(this.evaluate(expression), expression);
@@ -204,6 +266,8 @@ export class Machine extends BlockMachine<Value> {
       }
       case "get_actual_tcp_pose":
       case "get_target_tcp_pose":
+        if (this.lost !== undefined)
+          throw new TextError(expression, "a position that is known", `${this.lost} Where it is now is not known.`);
         return this.arm.six(this.arm.tip());
       case "get_tcp_offset":
       case "get_target_tcp_offset":
@@ -256,6 +320,8 @@ export class Machine extends BlockMachine<Value> {
 
   private jointsNow(at: TextPlace): readonly number[] {
     const { joints } = this.arm;
+    if (this.lost !== undefined)
+      throw new TextError(at, "a position that is known", `${this.lost} Where it is now is not known.`);
     if (joints === undefined)
       throw new TextError(
         at,
@@ -354,7 +420,9 @@ export class Machine extends BlockMachine<Value> {
       case "movel":
       case "movep":
       case "movec":
+        if (this.leaveOut(statement)) break;
         yield say(this.move(name, args, id()));
+        this.lost = undefined;
         return undefined;
       case "sleep": {
         const s = asNumber(args.required(0, "t"), statement);

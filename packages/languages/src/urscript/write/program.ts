@@ -2,10 +2,12 @@ import {
   branchOf,
   compose,
   flangeOfTcp,
+  listsOf,
   nearestSolution,
   pose,
   rotate,
-  type Condition,
+  isCondition,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type Pose,
@@ -20,9 +22,13 @@ import {
   UnsupportedStep,
   Names,
   Place,
+  assignText,
+  expressionText,
+  linesLookedAt,
   called,
   patternOf,
   pitchTerm,
+  type ExpressionWords,
   type Pattern,
 } from "../../emitter/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
@@ -82,6 +88,8 @@ export class ProgramWriter extends BlockStepWriter {
     for (const frame of used.frames)
       if (!Object.hasOwn(program.pallets, frame))
         out.add(`global ${this.names.of("frame", frame)} = ${this.inController(place.frame(frame))}`);
+    for (const [variable, { type }] of Object.entries(program.variables ?? {}))
+      out.add(`global ${this.words.variable(variable)} = ${type === "bool" ? "False" : "0"}`);
     for (const [signal, step] of used.signals) {
       const line = Object.hasOwn(program.signals, signal) ? program.signals[signal] : undefined;
       if (line?.address === undefined)
@@ -140,6 +148,10 @@ export class ProgramWriter extends BlockStepWriter {
         return add("halt");
       case "comment":
         return add(`#- ${asciiText(step.text)}`.trimEnd());
+      case "assign":
+        return add(assignText(step, " = ", this.words, this.place.program));
+      case "while":
+        return this.loop(`while ${this.condition(step.when, step)}:`, "end", step);
       case "call":
         add(`${this.names.of("routine", step.routine)}()`);
         return this.begin();
@@ -253,15 +265,49 @@ export class ProgramWriter extends BlockStepWriter {
     );
   }
 
-  private condition(when: Condition, step: Step): string {
-    const route = this.door(when.signal, step);
-    const read = `get_${route.name}_${route.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
+  private read(signal: string, step: Step): string {
+    const route = this.door(signal, step);
+    return `get_${route.name}_${route.isInput ? "in" : "out"}(${this.names.of("signal", signal)})`;
+  }
+
+  private readonly words: ExpressionWords = {
+    truth: ["False", "True"],
+    number: num,
+    variable: name => this.names.of("variable", name),
+    line: (signal, step) => this.read(signal, step),
+    not: inner => `not ${inner}`,
+    signs: {
+      and: " and ",
+      or: " or ",
+      "=": " == ",
+      "<>": " != ",
+      "<": " < ",
+      "<=": " <= ",
+      ">": " > ",
+      ">=": " >= ",
+      "+": " + ",
+      "-": " - ",
+      "*": " * ",
+      "/": " / ",
+    },
+    calls: {
+      sqrt: x => `sqrt(${x})`,
+      sin: x => `sin(${x})`,
+      cos: x => `cos(${x})`,
+    },
+    scale: {},
+    real: text => `1.0 * ${text}`,
+  };
+
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.words, this.place.program, step);
+    const read = this.read(when.signal, step);
     if ("is" in when) return when.is ? read : `not ${read}`;
     return "above" in when ? `${read} > ${num(when.above)}` : `${read} < ${num(when.below)}`;
   }
 
   /** As long as this is true, the condition is not. */
-  private until(when: Condition, step: Step): string {
+  private until(when: Predicate, step: Step): string {
     return "is" in when ? this.condition({ ...when, is: !when.is }, step) : `not (${this.condition(when, step)})`;
   }
 
@@ -439,24 +485,13 @@ function usedNames(lists: readonly (readonly Step[])[]): {
         case "set":
           note(step.signal, step);
           break;
-        case "wait-for":
-          note(step.when.signal, step);
-          break;
-        case "if":
-          note(step.when.signal, step);
-          look(step.then);
-          look(step.else ?? []);
-          break;
-        case "repeat":
-          look(step.steps);
-          break;
         case "pallet":
           pallets.add(step.pallet);
-          look(step.steps);
           break;
         default:
-          break;
+          for (const signal of linesLookedAt(step)) note(signal, step);
       }
+      for (const inner of listsOf(step)) look(inner);
     }
   };
   for (const steps of lists) look(steps);

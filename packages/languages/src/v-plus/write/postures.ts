@@ -85,9 +85,23 @@ export function configurationsOf(program: Program, place: Place): Configurations
   return { kind: "postures", q_rad };
 }
 
-/** Loops go round once: every round goes to the same points. */
-const once = (steps: readonly Step[]): readonly Step[] =>
-  steps.map(step => withLists(step.type === "repeat" ? { ...step, times: 1 } : step, once));
+/** Loops go round once: every round goes to the same points. Whatever a program computes, every way is looked at. */
+const once = (steps: readonly Step[]): readonly Step[] => steps.map(step => withLists(anyWay(step), once));
+
+function anyWay(step: Step): Step {
+  const when = { signal: "", is: true };
+  switch (step.type) {
+    case "repeat":
+      return { ...step, times: 1 };
+    case "if":
+    case "wait-for":
+      return { ...step, when };
+    case "while":
+      return { id: step.id, type: "repeat", times: 1, steps: step.steps };
+    default:
+      return step;
+  }
+}
 
 /** @param inBranch  the posture that the text has said already. */
 function postureOf(

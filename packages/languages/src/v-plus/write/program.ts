@@ -6,7 +6,9 @@ import {
   inverse,
   millimetres,
   type Branch,
-  type Condition,
+  isCondition,
+  isPassedOver,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type Program,
@@ -17,6 +19,15 @@ import {
   wristAboveZero,
 } from "@twincell/core";
 import { asciiText, singleText } from "../../parser/index.ts";
+import {
+  PENDANT_UNITS,
+  UnsupportedStep,
+  assignText,
+  called,
+  expressionText,
+  linesLookedAt,
+  type ExpressionWords,
+} from "../../emitter/index.ts";
 import { ppointText, transText } from "./location.ts";
 import { commentText, vPlusName } from "./names.ts";
 import { palletLines, type PalletNames } from "./pallet.ts";
@@ -39,6 +50,7 @@ export class ProgramWriter {
   private readonly out = new TextWriter();
   private readonly names = new Set<string>();
   private readonly toolNames = new Map<string, string>();
+  private readonly variableNames = new Map<string, string>();
   private readonly signalNames = new Map<string, string>();
   private readonly palletNames = new Map<string, PalletNames>();
   private readonly routineNames = new Map<string, string>();
@@ -112,7 +124,7 @@ export class ProgramWriter {
     for (const [i, step] of steps.entries())
       this.step(
         step,
-        steps.slice(i + 1).find(next => next.type !== "comment"),
+        steps.slice(i + 1).find(next => !isPassedOver(next)),
       );
   }
 
@@ -135,13 +147,17 @@ export class ProgramWriter {
       case "set":
         return add(`SIGNAL ${step.to === true ? "" : "-"}${this.signalNames.get(step.signal)!}`);
       case "wait-for":
-        return add(`WAIT ${this.condition(step.when)}`);
+        return add(`WAIT ${this.condition(step.when, step)}`);
       case "message":
         return add(`TYPE "${asciiText(step.text).replaceAll('"', "'")}"`);
       case "stop":
         return add("HALT");
       case "comment":
         return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
+      case "assign":
+        return add(assignText(step, " = ", this.words, this.program));
+      case "while":
+        return this.block([`WHILE ${this.condition(step.when, step)} DO`], step.steps, add);
       case "call":
         add(`CALL ${this.routineNames.get(step.routine)!}()`);
         return this.forget();
@@ -158,7 +174,7 @@ export class ProgramWriter {
           add,
         );
       case "if":
-        this.block([`IF ${this.condition(step.when)} THEN`], step.then, add, step.else !== undefined);
+        this.block([`IF ${this.condition(step.when, step)} THEN`], step.then, add, step.else !== undefined);
         if (step.else !== undefined) this.block(["ELSE"], step.else, add);
         return;
       // Neither gets here: the export stops before.
@@ -212,7 +228,44 @@ export class ProgramWriter {
     return made;
   }
 
-  private condition(when: Condition): string {
+  private readonly words: ExpressionWords = {
+    truth: ["FALSE", "TRUE"],
+    number: singleText,
+    variable: name => this.named(this.variableNames, name),
+    truthVariable: name => `${this.named(this.variableNames, name)} <> 0`,
+    line: (signal, step, isDigital) => {
+      if (isDigital) return `SIG(${this.signalNames.get(signal)!})`;
+      throw new UnsupportedStep(step.id, `${called(step)} reads the level of ${signal}.`, "Decide by a digital line.");
+    },
+    not: inner => `NOT ${inner}`,
+    signs: {
+      and: " AND ",
+      or: " OR ",
+      "=": " == ",
+      "<>": " <> ",
+      "<": " < ",
+      "<=": " <= ",
+      ">": " > ",
+      ">=": " >= ",
+      "+": "+",
+      "-": "-",
+      "*": "*",
+      "/": "/",
+      mod: " MOD ",
+      div: (a, b) => `INT(${a}/${b})`,
+    },
+    calls: {
+      abs: x => `ABS(${x})`,
+      sqrt: x => `SQRT(${x})`,
+      sin: x => `SIN(${x})`,
+      cos: x => `COS(${x})`,
+      trunc: x => `INT(${x})`,
+    },
+    scale: PENDANT_UNITS,
+  };
+
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.words, this.program, step);
     return `SIG(${"is" in when && when.is ? "" : "-"}${this.signalNames.get(when.signal)!})`;
   }
 
@@ -283,7 +336,7 @@ function signalsUsed(program: Program): Set<string> {
   const names = new Set<string>();
   for (const step of everyStep(program)) {
     if (step.type === "set") names.add(step.signal);
-    if (step.type === "wait-for" || step.type === "if") names.add(step.when.signal);
+    for (const signal of linesLookedAt(step)) names.add(signal);
   }
   return names;
 }

@@ -19,6 +19,8 @@ const LEXICON: Lexicon = {
   quotes: '"',
   doubled: false,
   lineEnds: true,
+  // Names of a library stand behind that of the library: `gripper:open`.
+  word: /[A-Za-z_]\w*(?::[A-Za-z_]\w*)?/y,
   signs: [
     "==",
     "!=",
@@ -96,6 +98,9 @@ const RULES: ExpressionRules = {
   reserved: RESERVED,
   args: cursor => readArguments(cursor),
 };
+/** What ends code without "begin" and "end". */
+const TEXT_END = "the end of the code";
+const TASKS: ReadonlySet<string> = new Set(["taskcreate", "taskcreatesync"]);
 const CLOSES: ReadonlySet<string> = new Set([
   "end",
   "endif",
@@ -160,7 +165,8 @@ class CodeReader extends RecoveringReader {
       });
     const block = this.guard(() => {
       const at = cursor.here;
-      cursor.expect("begin");
+      // Some editors leave both words out.
+      if (!cursor.accept("begin")) return this.block([TEXT_END], at);
       const inside = this.block(["end"], at);
       cursor.expect("end");
       return inside;
@@ -174,6 +180,7 @@ class CodeReader extends RecoveringReader {
       const statements: Statement[] = [];
       for (;;) {
         this.toNextLine(statements);
+        if (cursor.done && ends[0] === TEXT_END) break;
         if (cursor.done || this.hasEnough)
           throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
         if (cursor.isAt("word") && ends.includes(cursor.next)) break;
@@ -200,6 +207,7 @@ class CodeReader extends RecoveringReader {
     const at = cursor.here;
     const word = cursor.next;
     if (!cursor.isAt("word")) throw cursor.unexpected("a statement");
+    if (TASKS.has(word.toLowerCase())) return this.task(at);
     if (!RESERVED.has(word) && !(word in KEYWORDS)) {
       if (cursor.second === "(") {
         cursor.advance();
@@ -252,6 +260,15 @@ class CodeReader extends RecoveringReader {
       default:
         throw new TextError(at, "a statement", `"${word}" begins no statement.`);
     }
+  }
+
+  /** `taskCreate "arm", 10, cycle(1)`: a program that runs beside this one. */
+  private task(at: TextPlace): Statement {
+    const { cursor } = this;
+    const name = cursor.take();
+    const args: Argument[] = [{ value: this.value(), ...cursor.here }];
+    while (cursor.accept(",")) args.push({ value: this.value(), ...cursor.here });
+    return { kind: "do", name: name.toLowerCase() === "taskcreatesync" ? "taskCreateSync" : "taskCreate", args, ...at };
   }
 
   private assignment(at: TextPlace): Statement {

@@ -18,6 +18,9 @@ const ENTITIES: Readonly<Record<string, string>> = { lt: "<", gt: ">", amp: "&",
 const plain = (text: string): string =>
   text.includes("&") ? text.replace(/&(lt|gt|amp|quot|apos);/g, (_, name: string) => ENTITIES[name]!) : text;
 
+/** Tags whose text says nothing to the controller. */
+const TEXTS: ReadonlySet<string> = new Set(["description", "comment"]);
+
 /**
  * The tags and CDATA sections of XML texts, several documents one behind the other among them.
  *
@@ -27,6 +30,7 @@ export function* xmlParts(text: string): Generator<XmlPart, void> {
   let line = 1;
   let lineStart = 0;
   let at = 0;
+  let inside = "";
   const goTo = (end: number): TextPlace => {
     for (let i = text.indexOf("\n", at); i >= 0 && i < end; i = text.indexOf("\n", i + 1)) {
       line++;
@@ -38,13 +42,19 @@ export function* xmlParts(text: string): Generator<XmlPart, void> {
   for (const match of text.matchAll(PART)) {
     const between = text.slice(at, match.index);
     const stray = /[^\s\uFEFF]/.exec(between);
-    if (stray !== null) throw new TextError(goTo(at + stray.index), "a tag", "Text stands outside the tags.");
+    if (stray !== null) {
+      // Older files hold their code as text.
+      if (inside === "code") yield { kind: "data", text: plain(between), ...goTo(at) };
+      else if (!TEXTS.has(inside))
+        throw new TextError(goTo(at + stray.index), "a tag", "Text stands outside the tags.");
+    }
     const place = goTo(match.index);
     const [whole, data, slash, name, attributes, empty] = match;
     if (whole === "<") throw new TextError(place, "a tag", "The sign < begins no tag here.");
     if (data !== undefined) {
       yield { kind: "data", text: data, ...goTo(match.index + "<![CDATA[".length) };
     } else if (name !== undefined) {
+      inside = slash === "/" || empty === "/" ? "" : name;
       yield {
         kind: slash === "/" ? "close" : "open",
         name,

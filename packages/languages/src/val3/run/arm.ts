@@ -1,6 +1,6 @@
-import { branchOf, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
+import { branchOf, flangePose, solveAll, type Branch, type Pose, type Robot } from "@twincell/core";
 import { ShownAxes, armPoints } from "../../parser/index.ts";
-import { fromPose, times, toPose, type Trsf } from "./trsf.ts";
+import { fromPose, inverted, times, toPose, type Trsf } from "./trsf.ts";
 
 /** Configuration words of a point. */
 export interface Config {
@@ -45,6 +45,12 @@ export class ControllerArm {
     const q = fitting ?? all[0]!;
     this.joints_rad = q;
     return { branch: branchOf(robot, q), fits: fitting !== undefined };
+  }
+
+  /** The flange in the world of the controller; undefined where nobody knows the joints. */
+  flange(): Trsf | undefined {
+    if (this.joints_rad === undefined) return undefined;
+    return times(inverted(this.baseFromWorld), fromPose(flangePose(this.robot.arm, this.joints_rad)));
   }
 
   private fits(q: readonly number[], { shoulder, elbow, wrist }: Config): boolean {

@@ -14,6 +14,7 @@ import type {
 import { TextError, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
+  changedNames,
   type Argument,
   type Block,
   type Do,
@@ -22,12 +23,14 @@ import {
   type Routine,
   type WaitUntil,
 } from "../../parser/structured/index.ts";
-import type { Application } from "../read/application.ts";
+import { FAULT, type Application } from "../read/application.ts";
 import { ControllerArm } from "./arm.ts";
-import { NOTHING, fromSix, inverted, times, toPose, type Trsf } from "./trsf.ts";
+import { NOTHING, fromSix, inverted, times, toPose, toSix, type Trsf } from "./trsf.ts";
 import {
   asNumber,
   beginning,
+  componentOf,
+  withComponent,
   binary,
   finite,
   isList,
@@ -65,6 +68,37 @@ const MATHS: Readonly<Record<string, (x: number, y: number) => number>> = {
   cos: x => Math.cos((x * Math.PI) / 180),
   tan: x => Math.tan((x * Math.PI) / 180),
 };
+const MOTIONS = new Set(["movej", "movel", "movec"]);
+/** Instructions for files, lines of text, links, screens and other tasks: none of them moves the arm. */
+const OUTSIDE = new Set([
+  "diolink",
+  "aiolink",
+  "siolink",
+  "sioset",
+  "sioget",
+  "sioctrl",
+  "clearbuffer",
+  "fileopen",
+  "fileclose",
+  "taskkill",
+  "tasksuspend",
+  "taskresume",
+  "userpageset",
+  "resetmotion",
+  "resettask",
+  "disablepower",
+  "stopmove",
+  "clear",
+  "delete",
+  "insert",
+  "resize",
+  "libload",
+  "libsave",
+  "setmutex",
+  "sendmessage",
+  "scoffset",
+  "bidiolink",
+]);
 /** A limit of the tool's speed that is none [mm/s]. */
 const NO_LIMIT = 10_000;
 
@@ -80,6 +114,15 @@ export class Machine extends BlockMachine<Value> {
   private readonly outputs = new Map<string, boolean | number>();
   /** Motions are on their way while the program goes on. */
   private moving = false;
+  /** Programs that are to run beside the one that is carried out. */
+  private readonly tasks: { readonly routine: Routine; readonly args: readonly Argument[]; readonly at: TextPlace }[] =
+    [];
+  /** Why nobody knows where the robot is: a sentence. */
+  private lost: string | undefined;
+  /** Data that something outside the program gave a value. */
+  private readonly foreign = new Set<string>();
+  /** What kind of datum is asked for. */
+  private wanted: Kind | undefined;
 
   /** @param changing  names that are given a value while the program runs. */
   constructor(
@@ -97,8 +140,8 @@ export class Machine extends BlockMachine<Value> {
     this.declared = declared;
     this.signals = signals;
     for (const datum of application.data)
-      for (const [i, value] of valuesOf(datum).entries())
-        this.globals.set(i === 0 ? datum.name : `${datum.name}[${i}]`, value);
+      for (const [place, value] of valuesOf(datum))
+        this.globals.set(/^0(?:,0)*$/.test(place) ? datum.name : `${datum.name}[${place}]`, value);
   }
 
   protected override prepare(routine: Routine, names: Map<string, Value>): void {
@@ -109,7 +152,104 @@ export class Machine extends BlockMachine<Value> {
   }
 
   *main(): Generator<Executed, Flow> {
-    return yield* this.call(this.application.main, [], this.application.main);
+    const { main } = this.application;
+    if (!this.startsAlone(main)) return "next";
+    const flow = yield* this.call(main, [], main);
+    // Programs that were to run beside this one and move the arm are carried out behind it.
+    for (let task = this.tasks.shift(); task !== undefined; task = this.tasks.shift()) {
+      if (flow === "halt" && task.routine === undefined) return flow;
+      yield* this.call(task.routine!, task.args, task.at);
+    }
+    return flow;
+  }
+
+  /** Whether a program can be started by itself: one that wants arguments has nobody who gives them. */
+  private startsAlone({ name, parameters, line, column }: Routine): boolean {
+    if (parameters.length === 0) return true;
+    this.remark(
+      "arguments",
+      { line, column },
+      "the program that calls this one",
+      `${this.spelt(name)} wants to be given ${parameters.map(each => each.name).join(", ")}: it is not run by itself. Open it with the program that calls it.`,
+    );
+    return false;
+  }
+
+  /** Programs stand in the text under their own names, those of a library too. */
+  override routine(name: string): Routine | undefined {
+    const found = super.routine(name);
+    if (found !== undefined || !name.includes(":")) return found;
+    return super.routine(`call ${name.slice(name.indexOf(":") + 1)}`);
+  }
+
+  protected override handBack(routine: Routine, names: ReadonlyMap<string, Value>, args: readonly Argument[]): void {
+    const free = args.filter(({ name }) => name === undefined);
+    for (const [i, { name, isBack }] of routine.parameters.entries()) {
+      const given = free[i]?.value;
+      const value = names.get(name);
+      if (isBack !== true || given === undefined || value === undefined) continue;
+      if (given.kind !== "variable" && given.kind !== "index") continue;
+      if (kindOf(value) !== "dio" && kindOf(value) !== "aio") this.store(given, value);
+    }
+  }
+
+  /** The code of a program and of all that it calls. */
+  private bodiesOf(routine: Routine): readonly Block[] {
+    const all = [...this.application.routines.values()];
+    const met = new Set([routine]);
+    for (const each of met)
+      for (const other of all)
+        if (!met.has(other) && JSON.stringify(each.body).includes(`"${other.name}"`)) met.add(other);
+    return [...met].map(({ body }) => body);
+  }
+
+  /** Whether a program, or one that it calls, has a motion. */
+  private moves(routine: Routine, met = new Set<string>()): boolean {
+    if (met.has(routine.name)) return false;
+    met.add(routine.name);
+    const look = (block: Block): boolean =>
+      block.some(statement => {
+        switch (statement.kind) {
+          case "do": {
+            if (MOTIONS.has(statement.name.toLowerCase())) return true;
+            const called = this.routine(statement.name);
+            return called !== undefined && this.moves(called, met);
+          }
+          case "if":
+            return statement.branches.some(({ body }) => look(body)) || look(statement.otherwise ?? []);
+          case "while":
+          case "for":
+            return look(statement.body);
+          default:
+            return false;
+        }
+      });
+    return look(routine.body);
+  }
+
+  private createTask(statement: Do): undefined {
+    const called = statement.args.at(-1)?.value;
+    const routine = called?.kind === "call" ? this.routine(`call ${called.name}`) : undefined;
+    if (called?.kind !== "call" || routine === undefined)
+      throw new TextError(statement, "a program of the text", "The program of the task is not in the text.");
+    if (!this.moves(routine)) {
+      for (const name of changedNames(this.bodiesOf(routine))) this.foreign.add(name);
+      this.remark(
+        `task ${called.name}`,
+        statement,
+        "a program that moves the robot",
+        `The task ${called.name} does not move the robot: it is kept and not executed. What it gives to data is not known.`,
+      );
+      return undefined;
+    }
+    this.remark(
+      `task ${called.name}`,
+      statement,
+      "one program after the other",
+      `The task ${called.name} runs beside this program on the controller: it is carried out behind it here.`,
+    );
+    this.tasks.push({ routine, args: called.args, at: statement });
+    return undefined;
   }
 
   open(): Block {
@@ -128,14 +268,25 @@ export class Machine extends BlockMachine<Value> {
 
   private nameOf(expression: Expression): string | undefined {
     if (expression.kind === "variable") return expression.name;
-    if (expression.kind !== "index" || expression.of.kind !== "variable" || expression.indices.length !== 1)
-      return undefined;
-    const i = this.numberOf(expression.indices[0]!);
-    return i === 0 ? expression.of.name : `${expression.of.name}[${i}]`;
+    if (expression.kind !== "index" || expression.of.kind !== "variable") return undefined;
+    const places = expression.indices.map(index => this.numberOf(index));
+    return places.every(i => i === 0) ? expression.of.name : `${expression.of.name}[${places.join(",")}]`;
   }
 
   private variable(name: string): Value | undefined {
-    return this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name);
+    if (this.foreign.size > 0 && this.foreign.has(name)) return undefined;
+    const value = this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name);
+    if (value !== undefined || !name.includes(":")) return value;
+    return this.globals.get(name.slice(name.indexOf(":") + 1));
+  }
+
+  /** A component of a datum: `pPick.trsf.x`, `mFast.vel`, `jHome.j1`. */
+  private component(of: Expression, name: string, at: TextPlace): Value {
+    const value = this.evaluate(of);
+    const found = componentOf(value, name);
+    if (found === undefined)
+      throw new TextError(at, "a component of the datum", `There is no component "${name}" here.`);
+    return found;
   }
 
   evaluate(expression: Expression): Value {
@@ -150,8 +301,7 @@ export class Machine extends BlockMachine<Value> {
         const value = name === undefined ? undefined : this.variable(name);
         if (name === "flange" && value === undefined) return { kind: "tool", trsf: NOTHING };
         if (name === "world" && value === undefined) return { kind: "frame", trsf: NOTHING, father: "" };
-        if (name === undefined || value === undefined)
-          throw new TextError(expression, "a datum that has a value", `"${name ?? "this"}" has no value here.`);
+        if (name === undefined || value === undefined) return this.missing(name, expression);
         return kindOf(value) === "dio" ? this.read(name, "digital-in") : value;
       }
       case "list":
@@ -163,8 +313,35 @@ export class Machine extends BlockMachine<Value> {
       case "call":
         return this.function(expression);
       case "component":
-        throw new TextError(expression, "a whole datum", "Components of data are not read here.");
+        return this.component(expression.of, expression.name, expression);
     }
+  }
+
+  /** A datum that no open file has: a speed and a tool have something to take for them, everything else has not. */
+  private missing(name: string | undefined, at: TextPlace): Value {
+    const say = (what: string, taken: string): void => {
+      this.remark(
+        `datum ${name}`,
+        at,
+        "the data of the application",
+        `The ${what} ${name} is in no file that is open: ${taken}.`,
+      );
+    };
+    if (this.wanted === "mdesc") {
+      say("motion descriptor", "full speed without blending is taken for it");
+      return { kind: "mdesc", accel: 100, vel: 100, tmax: NO_LIMIT, blend: "off", leave: 0, reach: 0 };
+    }
+    if (this.wanted === "tool") {
+      say("tool", "the flange is taken for it");
+      return { kind: "tool", trsf: NOTHING };
+    }
+    throw new TextError(
+      at,
+      "a datum that has a value",
+      this.foreign.has(name ?? "")
+        ? `"${name}" is what another machine or a task answers: it is not known here.`
+        : `"${name ?? "this"}" has no value here.`,
+    );
   }
 
   private function({ name, args, line, column }: Extract<Expression, { kind: "call" }>): Value {
@@ -187,12 +364,55 @@ export class Machine extends BlockMachine<Value> {
       }
       case "aioGet": {
         const line = this.nameOf(given(0));
-        if (line === undefined || kindOf(this.variable(line)) !== "aio")
+        if (line === undefined || !this.isLine(line, "aio"))
           throw new TextError(at, "an analogue line", "aioGet reads an analogue line.");
         return this.read(line, "analogue-in");
       }
       case "dioGet":
         return this.evaluate(given(0));
+      case "here": {
+        const tool = this.of("tool", given(0));
+        const frame = this.chain(this.of("frame", given(1)));
+        const father = this.nameOf(given(1)) ?? "world";
+        const flange = this.arm.flange();
+        if (this.lost !== undefined || flange === undefined)
+          throw new TextError(at, "a position that is known", this.lost ?? "Where the robot is is not known here.");
+        const config = { shoulder: "ssame", elbow: "esame", wrist: "wsame" };
+        return { kind: "point", trsf: times(inverted(frame), times(flange, tool.trsf)), father, config };
+      }
+      case "herej": {
+        const { joints_rad } = this.arm;
+        if (this.lost !== undefined || joints_rad === undefined)
+          throw new TextError(at, "a position that is known", this.lost ?? "Where the robot is is not known here.");
+        return { kind: "joint", deg: this.arm.axes.degrees(joints_rad) };
+      }
+      case "distance": {
+        const [p, q] = [this.placeOf(given(0), at), this.placeOf(given(1), at)];
+        return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+      }
+      case "position": {
+        const point = this.of("point", given(0));
+        const frame = this.chain(this.of("frame", given(1)));
+        return toSix(times(inverted(frame), times(this.father(point.father, at), point.trsf)));
+      }
+      case "toString": {
+        const value = this.numberOf(given(args.length > 1 ? 1 : 0));
+        return String(value);
+      }
+      case "size":
+        return this.sizeOf(given(0));
+      case "isEmpty":
+      case "isSettled":
+      case "isPowered":
+      case "isCalibrated":
+      case "workingMode":
+      case "esStatus":
+      case "clock":
+      case "getMonitorSpeed":
+      case "getKey":
+      case "taskStatus":
+      case "setMonitorSpeed":
+        return this.ofController(name, at);
       default: {
         const maths = Object.hasOwn(MATHS, name) ? MATHS[name] : undefined;
         if (maths === undefined)
@@ -202,6 +422,41 @@ export class Machine extends BlockMachine<Value> {
     }
   }
 
+  /** Where a point is in the world, or a transformation from where it counts. */
+  private placeOf(expression: Expression, at: TextPlace): Trsf["mm"] {
+    const value = this.evaluate(expression);
+    if (isList(value)) return this.trsf(expression).mm;
+    const point = this.of("point", expression);
+    return times(this.father(point.father, at), point.trsf).mm;
+  }
+
+  private sizeOf(of: Expression): number {
+    const name = of.kind === "variable" ? of.name : "";
+    let size = this.variable(name) === undefined ? 0 : 1;
+    while (this.variable(`${name}[${size}]`) !== undefined) size++;
+    return size;
+  }
+
+  /** What only a controller knows: one that runs by itself, stands still and is asked by nobody. */
+  private ofController(name: string, at: TextPlace): Value {
+    this.remark(
+      name,
+      at,
+      "a value in the text",
+      `${name} is asked of the controller: it runs by itself here, and no time passes.`,
+    );
+    if (name.startsWith("is")) return true;
+    return name === "workingMode"
+      ? 4
+      : name === "taskStatus"
+        ? 1
+        : name === "getKey"
+          ? -1
+          : name === "clock" || name === "esStatus"
+            ? 0
+            : 100;
+  }
+
   private given(args: readonly Argument[], i: number, name: string, at: TextPlace): Expression {
     const found = args[i]?.value;
     if (found === undefined) throw new TextError(at, `argument ${i + 1}`, `${name} has only ${args.length} arguments.`);
@@ -209,7 +464,10 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private of<K extends Kind>(kind: K, expression: Expression): Extract<Value, { readonly kind: K }> {
+    const { wanted } = this;
+    this.wanted = kind;
     const value = this.evaluate(expression);
+    this.wanted = wanted;
     const isKind = (each: Value): each is Extract<Value, { readonly kind: K }> => kindOf(each) === kind;
     if (!isKind(value))
       throw new TextError(
@@ -245,17 +503,45 @@ export class Machine extends BlockMachine<Value> {
   }
 
   protected store(to: Expression, value: Value): void {
+    if (to.kind === "component") {
+      const changed = withComponent(this.evaluate(to.of), to.name, value);
+      if (changed === undefined)
+        throw new TextError(to, "a component of the datum", `"${to.name}" is no component that is given a value here.`);
+      this.store(to.of, changed);
+      return;
+    }
     const name = this.nameOf(to);
     if (name === undefined) throw new TextError(to, "a datum", "Only a whole datum can be given a value here.");
     const names = this.scopes.at(-1)?.names;
     const holder = names?.has(name) === true ? names : this.globals;
     const before = holder.get(name);
+    if (before === undefined && typeof value !== "object")
+      this.remark(
+        `datum ${name}`,
+        to,
+        "the data of the application",
+        `${name} is in no file that is open: whether it is a line is not known, and no line is set.`,
+      );
     if (before !== undefined && kindOf(before) !== kindOf(value))
       throw new TextError(to, `a ${kindOf(before)}`, `"${name}" cannot hold this.`);
     holder.set(name, value);
   }
 
   // --- lines ------------------------------------------------------------------------------------------------------
+
+  /** Whether a name is that of a line: one of the data, or one that none of the open files has. */
+  private isLine(name: string, kind: "dio" | "aio"): boolean {
+    const value = this.variable(name);
+    if (value !== undefined) return kindOf(value) === kind;
+    this.remark(
+      `datum ${name}`,
+      { line: 1, column: 1 },
+      "the data of the application",
+      `The line ${name} is in no file that is open: it counts as a ${kind === "dio" ? "digital" : "analogue"} line of that name.`,
+    );
+    this.globals.set(name, { kind });
+    return true;
+  }
 
   private read(name: string, kind: SignalLine["kind"]): boolean | number {
     this.declared.signals[name] ??= { kind };
@@ -314,23 +600,44 @@ export class Machine extends BlockMachine<Value> {
   /** Lines are read and written when the program comes to them, not when the robot does. */
   private settled(at: TextPlace): void {
     if (this.moving)
-      throw new TextError(
+      this.remark(
+        `overtakes ${at.line}`,
         at,
         "waitEndMove()",
-        "The robot may still be on its way here: what overtakes a motion is not executed.",
+        "This overtakes the motion before it on the controller: it is carried out when the robot is there here.",
       );
   }
 
   protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
     this.settled(statement);
-    const when = this.condition(statement.when);
+    const { when: all } = statement;
+    if (all.kind === "binary" && all.sign === "and") {
+      yield* this.waitUntil({ ...statement, when: all.left });
+      yield* this.waitUntil({ ...statement, when: all.right });
+      return;
+    }
+    const when = this.condition(all);
     if (when === undefined) {
-      if (!this.isTrue(statement.when))
-        throw new TextError(
-          statement.when,
-          "a condition of one line",
-          "The program waits for a condition that nothing here makes true.",
+      if (!this.isTrue(all)) {
+        const one =
+          all.kind === "binary" && all.sign === "or"
+            ? (this.condition(all.left) ?? this.condition(all.right))
+            : undefined;
+        if (one === undefined)
+          throw new TextError(
+            all,
+            "a condition of one line",
+            "The program waits for a condition that nothing here makes true.",
+          );
+        this.remark(
+          `alternatives ${statement.line}`,
+          statement,
+          "one thing to wait for",
+          "The wait ends with the first of several lines: only one of them is waited for here.",
         );
+        yield this.done(statement, { id: this.stepId(statement), type: "wait-for", when: one });
+        return;
+      }
       yield { line: statement.line };
       return;
     }
@@ -371,6 +678,12 @@ export class Machine extends BlockMachine<Value> {
 
   private step(statement: Do): Step | undefined {
     const { name, args } = statement;
+    if (name === FAULT) {
+      const text = (argument: Argument | undefined): string =>
+        argument?.value?.kind === "text" ? argument.value.value : "";
+      throw new TextError(statement, text(args[0]), text(args[1]));
+    }
+    if (name === "taskCreate" || name === "taskCreateSync") return this.createTask(statement);
     const given = (i: number): Expression => this.given(args, i, name, statement);
     const id = (): string => this.stepId(statement);
     const word = name.toLowerCase();
@@ -378,7 +691,14 @@ export class Machine extends BlockMachine<Value> {
       case "movej":
       case "movel":
       case "movec":
+        if (this.leaveOut(this.given(args, word === "movec" ? 1 : 0, word, statement))) return undefined;
         return this.motion(word, statement, id());
+      case "dioset": {
+        const line = this.nameOf(given(0));
+        if (line === undefined || !this.isLine(line, "dio"))
+          throw new TextError(statement, "a digital line", "dioSet writes a digital line.");
+        return this.set(line, this.numberOf(given(1)) !== 0, statement);
+      }
       case "waitendmove":
         this.moving = false;
         return undefined;
@@ -395,12 +715,15 @@ export class Machine extends BlockMachine<Value> {
       }
       case "aioset": {
         const line = this.nameOf(given(0));
-        if (line === undefined || kindOf(this.variable(line)) !== "aio")
+        if (line === undefined || !this.isLine(line, "aio"))
           throw new TextError(statement, "an analogue line", "aioSet writes an analogue line.");
         return this.set(line, this.numberOf(given(1)), statement);
       }
       default:
         if (SAYS.has(word)) {
+          const said = given(0);
+          if (said.kind === "variable" && this.foreign.has(said.name))
+            return { id: id(), type: "message", text: `<${said.name}>` };
           const text = this.evaluate(given(0));
           return {
             id: id(),
@@ -409,6 +732,17 @@ export class Machine extends BlockMachine<Value> {
           };
         }
         if (SILENT.has(word)) return undefined;
+        if (OUTSIDE.has(word)) {
+          if (word === "sioget")
+            for (const { value } of args.slice(1)) if (value?.kind === "variable") this.foreign.add(value.name);
+          this.remark(
+            `${word} ${statement.line}`,
+            statement,
+            "a statement about the robot",
+            `${name} is kept and not executed: it does not move the robot.`,
+          );
+          return undefined;
+        }
         throw new TextError(
           statement,
           "an instruction of VAL 3",
@@ -420,6 +754,23 @@ export class Machine extends BlockMachine<Value> {
   }
 
   // --- motions ----------------------------------------------------------------------------------------------------
+
+  /** A point that no open file has: nobody can go there. */
+  private leaveOut(goal: Expression): boolean {
+    let of = goal;
+    while (of.kind === "call" && (of.name === "appro" || of.name === "compose") && of.args[0]?.value !== undefined)
+      of = of.args[0].value;
+    const name = of.kind === "variable" || of.kind === "index" ? this.nameOf(of) : undefined;
+    if (name === undefined || this.variable(name) !== undefined) return false;
+    this.remark(
+      `point ${name}`,
+      goal,
+      "the data of the application",
+      `The motion to ${name} is left out: no file that is open has the point. The robot goes on to the next point from where it is.`,
+    );
+    this.lost = "The robot was to be at a point that no open file has.";
+    return true;
+  }
 
   private motion(word: "movej" | "movel" | "movec", { args, line, column }: Do, id: string): MoveStep {
     const at = { line, column };
@@ -441,6 +792,7 @@ export class Machine extends BlockMachine<Value> {
       blend_m,
     } as const;
     this.moving = true;
+    this.lost = undefined;
     const via =
       word === "movec"
         ? { via: this.target(this.of("point", this.given(args, 0, word, at)), name, tool.trsf, "on-the-way", at) }

@@ -31,6 +31,23 @@ export function fromSix([x, y, z, rx, ry, rz]: readonly number[]): Trsf {
   return { mm: [x!, y!, z!], wxyz: product(product([cx, sx, 0, 0], [cy, 0, sy, 0]), [cz, 0, 0, sz]) };
 }
 
+/** x, y, z, rx, ry, rz of a transformation; with ry at ±90 only the sum of rx and rz is determined, and rz is 0. */
+export function toSix({ mm, wxyz: [w, x, y, z] }: Trsf): readonly number[] {
+  const deg = (angle: number): number => (angle / Math.PI) * 180;
+  const m00 = 1 - 2 * (y * y + z * z);
+  const m01 = 2 * (x * y - w * z);
+  const m02 = 2 * (x * z + w * y);
+  const m12 = 2 * (y * z - w * x);
+  const m22 = 1 - 2 * (x * x + y * y);
+  const level = Math.hypot(m00, m01);
+  if (level < 1e-9) {
+    const m10 = 2 * (x * y + w * z);
+    const m11 = 1 - 2 * (x * x + z * z);
+    return [...mm, deg(Math.atan2(m10, m11)) * Math.sign(m02), deg(Math.atan2(m02, level)), 0];
+  }
+  return [...mm, deg(Math.atan2(-m12, m22)), deg(Math.atan2(m02, level)), deg(Math.atan2(-m01, m00))];
+}
+
 export function times(a: Trsf, b: Trsf): Trsf {
   const [x, y, z] = turned(a.wxyz, b.mm);
   return { mm: [a.mm[0] + x, a.mm[1] + y, a.mm[2] + z], wxyz: product(a.wxyz, b.wxyz) };

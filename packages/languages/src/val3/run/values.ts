@@ -2,7 +2,7 @@ import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 import type { DataDeclaration } from "../read/application.ts";
 import type { Config } from "./arm.ts";
-import { NOTHING, fromSix, type Trsf } from "./trsf.ts";
+import { NOTHING, fromSix, toSix, type Trsf } from "./trsf.ts";
 
 export interface Joint {
   readonly kind: "joint";
@@ -60,9 +60,25 @@ export function asNumber(value: Value, at: TextPlace): number {
 const SIX = ["x", "y", "z", "rx", "ry", "rz"];
 const JOINTS = ["j1", "j2", "j3", "j4", "j5", "j6"];
 
-/** The values of a datum; those that nothing is done with here come out as none. */
-export function valuesOf({ type, values, line, column }: DataDeclaration): readonly Value[] {
-  return values.flatMap((attributes): Value[] => {
+/**
+ * The values of a datum by their places; those that nothing is done with here come out as none. What is not written is
+ * as the type begins.
+ */
+export function valuesOf(datum: DataDeclaration): ReadonlyMap<string, Value> {
+  const { type, size, values } = datum;
+  const all = new Map<string, Value>();
+  const empty = type === "dio" || type === "aio" ? ({ kind: type } as const) : beginning(type);
+  if (empty !== undefined) for (let i = 0; i < size; i++) all.set(String(i), empty);
+  for (const [i, attributes] of values.entries()) {
+    const place = (attributes.get("key") ?? attributes.get("index") ?? String(i)).replaceAll(" ", "");
+    const [value] = written(datum, attributes);
+    if (value !== undefined) all.set(place, value);
+  }
+  return all;
+}
+
+function written({ type, line, column }: DataDeclaration, given: ReadonlyMap<string, string>): readonly Value[] {
+  return [given].flatMap((attributes): Value[] => {
     const number = (name: string, otherwise = 0): number => {
       const text = attributes.get(name);
       const value = text === undefined ? otherwise : Number(text);
@@ -70,7 +86,7 @@ export function valuesOf({ type, values, line, column }: DataDeclaration): reado
         throw new TextError({ line, column }, `a number for ${name}`, `The value "${text}" of ${name} is no number.`);
       return value;
     };
-    const father = (attributes.get("fatherId") ?? "").replace(/\[0\]$/, "");
+    const father = (attributes.get("fatherId") ?? "").replace(/\[0\]$/, "").replace(/^\w+:/, "");
     const trsf = (): Trsf => fromSix(SIX.map(name => number(name)));
     switch (type) {
       case "num":
@@ -121,6 +137,61 @@ export function valuesOf({ type, values, line, column }: DataDeclaration): reado
   });
 }
 
+/** A component of a value: `trsf` and `config` of a point, numbers of a transformation, a joint or a descriptor. */
+export function componentOf(value: Value, name: string): Value | undefined {
+  if (isList(value)) return value[SIX.indexOf(name)];
+  if (typeof value !== "object") return undefined;
+  switch (value.kind) {
+    case "point":
+      if (name === "trsf") return toSix(value.trsf);
+      return name === "shoulder" || name === "elbow" || name === "wrist" ? value.config[name] : undefined;
+    case "frame":
+    case "tool":
+      return name === "trsf" ? toSix(value.trsf) : undefined;
+    case "joint":
+      return value.deg[JOINTS.indexOf(name)];
+    case "mdesc":
+      return name === "tvel"
+        ? value.tmax
+        : name === "accel" ||
+            name === "vel" ||
+            name === "tmax" ||
+            name === "leave" ||
+            name === "reach" ||
+            name === "blend"
+          ? value[name]
+          : name === "decel"
+            ? value.accel
+            : undefined;
+    default:
+      return undefined;
+  }
+}
+
+/** The same value with another component; undefined where it has none of that name, or not of that kind. */
+export function withComponent(value: Value, name: string, to: Value): Value | undefined {
+  if (isList(value)) {
+    const place = SIX.indexOf(name);
+    return place < 0 || typeof to !== "number" ? undefined : value.with(place, to);
+  }
+  if (typeof value !== "object") return undefined;
+  if (name === "trsf" && isList(to) && (value.kind === "point" || value.kind === "frame" || value.kind === "tool"))
+    return { ...value, trsf: fromSix(to) };
+  if (value.kind === "joint" && typeof to === "number") {
+    const place = JOINTS.indexOf(name);
+    return place < 0 ? undefined : { ...value, deg: value.deg.with(place, to) };
+  }
+  if (value.kind !== "mdesc") return undefined;
+  if (typeof to === "number") {
+    if (name === "tvel" || name === "tmax") return { ...value, tmax: to };
+    if (name === "decel" || name === "rvel" || name === "rmax") return value;
+    return name === "accel" || name === "vel" || name === "leave" || name === "reach"
+      ? { ...value, [name]: to }
+      : undefined;
+  }
+  return name === "blend" && typeof to === "string" ? { ...value, blend: to.toLowerCase() } : undefined;
+}
+
 /** What a variable of a program begins with. */
 export function beginning(type: string): Value | undefined {
   switch (type) {
@@ -141,6 +212,12 @@ export function beginning(type: string): Value | undefined {
         father: "world",
         config: { shoulder: "ssame", elbow: "esame", wrist: "wsame" },
       };
+    case "tool":
+      return { kind: "tool", trsf: NOTHING };
+    case "frame":
+      return { kind: "frame", trsf: NOTHING, father: "world" };
+    case "mdesc":
+      return { kind: "mdesc", accel: 100, vel: 100, tmax: 99_999, blend: "off", leave: 50, reach: 50 };
     default:
       return undefined;
   }

@@ -4,7 +4,9 @@ import {
   inverse,
   pose,
   rotate,
-  type Condition,
+  isCondition,
+  isPassedOver,
+  type Predicate,
   type EmittedFile,
   type MoveStep,
   type PalletStep,
@@ -20,12 +22,16 @@ import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
   BlockWriter,
+  PENDANT_UNITS,
   UnsupportedStep,
+  assignText,
   called,
+  expressionText,
   fixed,
   patternOf,
   pitchTerm,
   remark,
+  type ExpressionWords,
   type Place,
   shownAxes,
 } from "../../emitter/index.ts";
@@ -170,7 +176,7 @@ export class ApplicationWriter extends BlockStepWriter {
     const add = (line: string): void => {
       this.out.add(line, step.id);
     };
-    if (step.type !== "move" && step.type !== "comment") this.settle(step.id);
+    if (step.type !== "move" && !isPassedOver(step)) this.settle(step.id);
     switch (step.type) {
       case "move":
         return this.move(step, next, add);
@@ -198,6 +204,10 @@ export class ApplicationWriter extends BlockStepWriter {
         return add("return");
       case "comment":
         return add(`//- ${asciiText(step.text).replaceAll("]]>", "]] >")}`.trimEnd());
+      case "assign":
+        return add(assignText(step, "=", this.words, this.place.program));
+      case "while":
+        return this.loop(`while ${this.condition(step.when, step)}`, "endWhile", step);
       case "call":
         add(`call ${this.data.names.of("routine", step.routine)}()`);
         return this.begin();
@@ -336,7 +346,45 @@ export class ApplicationWriter extends BlockStepWriter {
     add(typeof to === "number" ? `aioSet(${name},${fixed(to, 6)})` : `${name}=${to}`);
   }
 
-  private condition(when: Condition, step: Step): string {
+  private readonly words: ExpressionWords = {
+    truth: ["false", "true"],
+    number: value => fixed(value, 9),
+    variable: name => {
+      const isTruth = this.place.program.variables![name]!.type === "bool";
+      const type = isTruth ? "bool" : "num";
+      return this.data.add(
+        this.data.names.of("variable", name),
+        type,
+        attributes([["value", isTruth ? "false" : "0"]]),
+        "",
+      );
+    },
+    line: (signal, step, isDigital) => {
+      const { name } = this.lineOf(signal, step);
+      return isDigital ? `${name}==true` : `aioGet(${name})`;
+    },
+    not: inner => `!${inner}`,
+    signs: {
+      and: " and ",
+      or: " or ",
+      "=": "==",
+      "<>": "!=",
+      "<": "<",
+      "<=": "<=",
+      ">": ">",
+      ">=": ">=",
+      "+": "+",
+      "-": "-",
+      "*": "*",
+      "/": "/",
+      mod: "%",
+    },
+    calls: { abs: x => `abs(${x})`, sqrt: x => `sqrt(${x})`, sin: x => `sin(${x})`, cos: x => `cos(${x})` },
+    scale: PENDANT_UNITS,
+  };
+
+  private condition(when: Predicate, step: Step): string {
+    if (!isCondition(when)) return expressionText(when.expression, this.words, this.place.program, step);
     const { name, kind } = this.lineOf(when.signal, step);
     if ("is" in when !== kind.startsWith("digital"))
       throw new UnsupportedStep(

@@ -259,6 +259,8 @@ export const saidByChecks: Sentences = {
     "Der Greifer schließt {n}-mal ins Leere: Im Umkreis von {mm} mm um seinen Greifpunkt ist kein Werkstück " +
     "gezeichnet.",
   "The gripper is given {s} s to close or open.": "Der Greifer erhält {s} s zum Schließen oder Öffnen.",
+  "Decisions that variables alone take were followed; where inputs decide, every way was looked at.":
+    "Entscheidungen, die allein Variablen treffen, wurden verfolgt; wo Eingänge entscheiden, wurde jeder Weg betrachtet.",
   "Waits for signals are given no time.": "Warten auf Signale wird keine Zeit gegeben.",
   "Both sides of every decision were looked at, one after the other in the plan.":
     "Beide Seiten jeder Entscheidung wurden geprüft, im Plan nacheinander.",

@@ -121,17 +121,15 @@ export const saidByRobots: Sentences = {
     "Am Roboter nachsehen, was ihn hält, dann noch einmal quittieren.",
   "{robot} was stopped.": "{robot} wurde angehalten.",
   "Choose a pose within reach.": "Eine erreichbare Pose wählen.",
-  "{robot} is a robot of {maker}; controllers of {brand} drive those of {other}.":
-    "{robot} ist ein Roboter von {maker}; Steuerungen von {brand} fahren solche von {other}.",
   "{robot} does not stand on a controller of {brand}: its file has no vendor section.":
-    "{robot} gehört zu keiner Steuerung von {brand}: Seine Datei hat keinen Herstellerabschnitt.",
+    "{robot} gehört zu keiner Steuerung von {brand}: seine Datei hat keinen Herstellerteil.",
   "{robot} does not stand on a controller of {brand}; its drivers are {drivers}.":
     "{robot} gehört zu keiner Steuerung von {brand}; seine Treiber sind {drivers}.",
+  "{robot} does not stand on a controller of {brand}.": "{robot} gehört zu keiner Steuerung von {brand}.",
   "Choose another controller or another robot, or give its file a vendor section with the driver {driver}.":
-    "Eine andere Steuerung oder einen anderen Roboter wählen, oder seiner Datei einen Herstellerabschnitt mit dem Treiber " +
-    "{driver} geben.",
+    "Eine andere Steuerung oder einen anderen Roboter wählen, oder der Datei einen Herstellerteil mit dem Treiber {driver} geben.",
   "Give the file of the robot itself, with its own vendor section.":
-    "Die Datei des Roboters selbst angeben, mit eigenem Herstellerabschnitt.",
+    "Die Datei dieses Roboters selbst angeben, mit seinem eigenen Herstellerteil.",
   "Try it again.": "Noch einmal versuchen.",
   "The robot stops by itself within {ms} ms.": "Der Roboter hält innerhalb von {ms} ms von selbst an.",
   "It would not be sent. Clear the way, or change the program.":

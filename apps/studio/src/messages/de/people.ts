@@ -1,0 +1,43 @@
+import type { Translation } from "../catalogue.ts";
+import type { peopleWords as english } from "../en/people.ts";
+
+/** German: signing in, and who may do what. */
+export const peopleWords = {
+  command: "Personen und Rollen …",
+  title: "Personen",
+  signIn: "Anmelden",
+  signInSays: "Dieser Server fragt, wer da ist. Was an Robotern getan wird, steht unter diesem Namen im Protokoll.",
+  name: "Name",
+  nameHint: "Der eigene; leer der aus der Einladung",
+  password: "Passwort",
+  newPassword: "Neues Passwort, mindestens 10 Zeichen",
+  passkey: "Mit Passkey anmelden",
+  addPasskey: "Passkey hinzufügen",
+  passkeyAdded: "Der Passkey ist hinzugefügt.",
+  passkeyNot: "Kein Passkey wurde erzeugt oder benutzt.",
+  passkeyNotHint: "Ein Passkey braucht localhost oder einen Namen mit einem Zertifikat, dem dieser Browser traut.",
+  signOut: "Abmelden",
+  welcome: "Passwort wählen",
+  welcomeSays: "Der Link gilt einmal. Das Passwort gut aufbewahren: Hier kann es niemand lesen.",
+  enter: "Weiter",
+  "you(name, role)": "Angemeldet: {name}, {role}.",
+  roles: { viewer: "Betrachter", programmer: "Programmierer", operator: "Bediener", admin: "Verwalter" },
+  rolesSay: {
+    viewer: "sieht zu und hält an",
+    programmer: "ändert Programme und Zellen",
+    operator: "bewegt Roboter",
+    admin: "darf alles und sagt, wer was darf",
+  },
+  "role(name)": "Rolle von {name}",
+  invite: "Einladen",
+  newName: "Name einer neuen Person",
+  "link(name)": "Diesen Link an {name} geben. Er gilt einmal, sieben Tage lang.",
+  copy: "Link kopieren",
+  copied: "Der Link ist kopiert.",
+  "renew(name)": "Neuer Link für {name}",
+  "remove(name)": "{name} entfernen",
+  waiting: "hat noch kein Passwort gewählt",
+  noServer: "Personen melden sich an einem Server an, der mit --accounts gestartet wurde.",
+  unreachable: "Der Server antwortet nicht.",
+  stopsAnyone: "Wer angemeldet ist, darf einen Roboter anhalten, gleich mit welcher Rolle.",
+} satisfies Translation<typeof english>;
