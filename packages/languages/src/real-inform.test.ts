@@ -4,10 +4,10 @@
  */
 import { robotById } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { EXAMPLE_PULSES, executeText, informDialect } from "./index.ts";
+import { executeText, informDialect } from "./index.ts";
 
 const robot = robotById("yaskawa_gp8")!;
-const dialect = informDialect({ pulses: EXAMPLE_PULSES });
+const dialect = informDialect({ examplePulses: true });
 /** Where the world of the controller counts from [m]. */
 const ZERO_Z_M = robot.baseFromVendorWorld.position[2];
 const job = (name: string, positions: readonly string[], ...lines: readonly string[]): string =>
