@@ -21,6 +21,7 @@ export const EVIDENCE = [
   soak("kill-recorder", ["packages/recording/src", "apps/cli/src/commands/record.ts"]),
   soak("physics-hour", ["packages/physics/src"]),
   soak("profile", ["packages/core/src/trajectory"]),
+  soak("random-programs", ["packages/controllers/src", "packages/core/src/collision"], "--keep"),
   soak("round-trips", languages),
   soak("thin-obstacles", ["packages/core/src/collision"]),
   soak("verdicts", ["packages/core/src/collision", "packages/core/src/mesh"]),

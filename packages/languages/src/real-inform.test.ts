@@ -43,7 +43,7 @@ function told(answer: ReturnType<typeof executeText>): unknown {
       case "wait":
         return `wait ${step.s}`;
       case "wait-for":
-        return `until ${step.when.signal}`;
+        return `until ${"signal" in step.when ? step.when.signal : "an expression"}`;
       default:
         return step.type;
     }

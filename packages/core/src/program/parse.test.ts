@@ -507,7 +507,7 @@ describe("version 2", () => {
 
   test("a program with variables, arguments and steps for being late reads and writes to itself", () => {
     const answer = parseProgram(newer);
-    expect(answer).toMatchObject({ kind: "program", program: { version: 2, ...newer } });
+    expect(answer).toMatchObject({ kind: "program", program: { ...newer, version: 2 } });
     const text = serializeProgram((answer as Extract<typeof answer, { kind: "program" }>).program);
     const again = parseProgram(text);
     expect(again.kind === "program" && serializeProgram(again.program)).toBe(text);
