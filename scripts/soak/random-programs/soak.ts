@@ -243,7 +243,7 @@ async function programs(
     station.setCell(cell);
     collider = touching(cell, robot);
     contact = "";
-    let sort: "colliding" | "clear" | "near" | "refused" = "refused";
+    let sort = "refused" as "colliding" | "clear" | "near" | "refused";
     asked.question = question => {
       const job = prepareJob(question);
       if (job.plan) {
