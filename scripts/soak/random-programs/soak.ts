@@ -67,9 +67,6 @@ export interface Soaked {
   readonly seconds: number;
 }
 
-/** What a program is to the cell: the arm would touch something, comes too near, or neither; or it is turned down. */
-type Sort = "colliding" | "clear" | "near" | "refused";
-
 interface Station {
   readonly scheduler: ManualScheduler;
   readonly robot: Robot;
@@ -246,7 +243,7 @@ async function programs(
     station.setCell(cell);
     collider = touching(cell, robot);
     contact = "";
-    let sort = "refused" as Sort;
+    let sort = "refused" as "colliding" | "clear" | "near" | "refused";
     asked.question = question => {
       const job = prepareJob(question);
       if (job.plan) {

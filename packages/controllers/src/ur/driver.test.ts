@@ -89,7 +89,7 @@ describe("UR driver", () => {
       const { scheduler, driver } = await urBench();
       const controller = await driver();
       // Room is made for a text that does not come: the next motion has to start the program anew.
-      const handed = watched(controller.handText!([{ name: "a.script", text: "def a():\nend\n", lines: ["", ""] }]));
+      const handed = watched(controller.handText!([{ name: "a.script", text: "def a():\nend\n", lines: [] }]));
       await scheduler.elapse(1);
       if (handed.value?.kind !== "handed") throw new Error("The text was not taken.");
       handed.value.drop();

@@ -40,7 +40,7 @@ export function vendorSectionOf(reader: Reader, file: Fields, path: string, join
     reader.fault(at("axes"), `the robot has ${joints} joints; the vendor section counts ${list.length} axes.`);
   const axes = (list ?? []).map((each, i) => axisOf(reader, each, `${at("axes")}[${i}]`, i + 1));
   const couplings = couplingsOf(reader, file.couplings, at("couplings"), joints);
-  const postures = posturesOf(reader, file.postures, at("postures"), joints);
+  const postures = readPostures(reader, file.postures, at("postures"), joints);
   const pulses = file.pulses === undefined ? undefined : pulsesOf(reader, file.pulses, at("pulses"), joints);
   return {
     languages: names("languages"),
@@ -101,7 +101,7 @@ const axisNumber = (reader: Reader, value: unknown, path: string, joints: number
     : reader.fault(path, `an axis is a number from 1 to ${joints}; here it is ${reader.shown(value)}.`);
 
 /** At least one, so that the section is bound to its arm. */
-function posturesOf(reader: Reader, value: unknown, path: string, joints: number): ShownPosture[] {
+function readPostures(reader: Reader, value: unknown, path: string, joints: number): ShownPosture[] {
   const list = reader.list(value ?? [], path, "postures") ?? [];
   if (list.length === 0)
     reader.fault(

@@ -16,8 +16,8 @@ import {
 
 /**
  * How a controller counts the axes S, L, U, R, B, T of its robot: pulses = round(pulsesPerDegree · shown_deg), by what
- * the vendor section says of signs, zeros and couplings. Data of one robot, from its parameter file (ALL.PRM); nobody can
- * work it out from a name.
+ * the vendor section says of signs, zeros and couplings. Data of one robot, from its parameter file (ALL.PRM); nobody
+ * can work it out from a name.
  */
 export interface PulseScale {
   readonly pulsesPerDegree: readonly number[];
