@@ -24,6 +24,16 @@ export const armScratch = (): ArmScratch => ({
   trig: new Float64Array(12),
 });
 
+const KEPT = new WeakMap<SerialArm, ArmScratch>();
+/** Working memory for callers that bring none: one for each arm, since laying an arm out costs more than a pose of it. */
+export function keptScratch(arm: SerialArm): ArmScratch {
+  const kept = KEPT.get(arm);
+  if (kept !== undefined) return kept;
+  const made = armScratch();
+  KEPT.set(arm, made);
+  return made;
+}
+
 /**
  * Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether
  * turned.
@@ -43,11 +53,11 @@ const SLIDE = 5;
  */
 export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratch): Float64Array {
   if (q.length !== arm.joints.length) throw new JointCountFault(arm.name, arm.joints.length, q.length);
-  return scratch.arm === arm ? scratch.chain : layOutProgram(arm, scratch);
+  return scratch.arm === arm ? scratch.chain : layOutArm(arm, scratch);
 }
 
 /** Apart from `chainOf`: what a closure keeps is allocated on entry, used or not. */
-function layOutProgram(arm: SerialArm, scratch: ArmScratch): Float64Array {
+function layOutArm(arm: SerialArm, scratch: ArmScratch): Float64Array {
   const rows = [
     ...arm.joints.map(joint => ({
       fixed: joint.parentFromJoint as Pose,

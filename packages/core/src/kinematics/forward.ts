@@ -1,6 +1,6 @@
 import type { SerialArm } from "../model/arm.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
-import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
+import { chainOf, keptScratch, walk, type ArmScratch } from "./chain.ts";
 import { elbowFlange } from "./elbow-chain.ts";
 
 export { armScratch, type ArmScratch } from "./chain.ts";
@@ -22,7 +22,7 @@ export function flangePose(
   arm: SerialArm,
   q: ArrayLike<number>,
   out: Pose<"base", "flange"> = identity(),
-  scratch: ArmScratch = armScratch(),
+  scratch: ArmScratch = keptScratch(arm),
 ): Pose<"base", "flange"> {
   const chain = chainOf(arm, q, scratch);
   if (scratch.elbow === null) walk(chain, q, out, null, null);
@@ -39,7 +39,7 @@ export function linkPoses(
   arm: SerialArm,
   q: ArrayLike<number>,
   out: readonly Pose<"base", "link">[],
-  scratch: ArmScratch = armScratch(),
+  scratch: ArmScratch = keptScratch(arm),
 ): void {
   walk(chainOf(arm, q, scratch), q, null, out, null);
 }
