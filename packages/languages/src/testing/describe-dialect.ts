@@ -210,8 +210,9 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       }
     });
 
-    test("another robot is refused with a sentence", () => {
-      const stranger: Robot = { ...robot, id: "stranger", name: "Stranger" };
+    test("a robot whose controllers do not run the language, by its vendor section, is refused with a sentence", () => {
+      const { vendorSection: _, ...unknown } = robot;
+      const stranger: Robot = { ...unknown, id: "stranger", name: "Stranger" };
       expect(dialect.emit(random(1), stranger).kind).toBe("cannot");
       expect(dialect.interpret(runnable(random(1)).text, stranger).kind).toBe("not-understood");
     });
