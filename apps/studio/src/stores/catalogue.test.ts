@@ -27,7 +27,7 @@ test("a saved cell with a robot of the catalogue opens once the catalogue was fe
   expect(robotById("ur5e")).toMatchObject({ vendor: "Universal Robots" });
 });
 
-test("a robot of the catalogue takes the place of the one in the cell, its program taught anew tip by tip; every language that does not know it says so", () => {
+test("a robot of the catalogue takes the place of the one in the cell, its program taught anew tip by tip; it is exported in its maker's language, and every other says why not", () => {
   showDocument(tracedCartonCell());
   const { steps } = theProgram()!;
   expect(changeRobot("kuka_kr20_r1810_2")).toBe(true);
@@ -35,6 +35,6 @@ test("a robot of the catalogue takes the place of the one in the cell, its progr
   expect(theProgram()!.robot).toBe("kuka_kr20_r1810_2");
   expect(theProgram()!.steps).toHaveLength(steps.length);
   const languages = languagesOf(robotById("kuka_kr20_r1810_2")!);
-  expect(languages.filter(({ why }) => why === null).map(({ dialect }) => dialect.id)).toEqual(["l-irl"]);
+  expect(languages.filter(({ why }) => why === null).map(({ dialect }) => dialect.id)).toEqual(["krl", "l-irl"]);
   for (const { why } of languages) expect(why === null || /\.$/.test(why)).toBe(true);
 });
