@@ -10,7 +10,7 @@ import {
   type Verdict,
 } from "@twincell/core";
 import { cellGeometry } from "@twincell/project";
-import { executeText } from "@twincell/languages";
+import { executeText, NOT_GIVEN } from "@twincell/languages";
 import { given, type Given } from "../io/arguments.ts";
 import { explained, MOST_EXPLAINED, repairSearch } from "../io/explained.ts";
 import { inputsFrom } from "../io/moments.ts";
@@ -135,11 +135,22 @@ async function checkText(options: Given, chosen: RobotToRun | undefined, margin_
   });
   const junit = options.text("junit");
   if (junit !== undefined) await writeOne(junit, junitReport(executed.program.name, verdict));
-  process.stdout.write(`${JSON.stringify({ ...verdict, steps })}\n`);
+  const assumed = executed.notExecuted
+    .filter(({ expected }) => expected === NOT_GIVEN)
+    .map(({ line, sentence }) => {
+      const place = project.placeOf(line);
+      return { file: place.path, line: place.line, sentence };
+    });
+  const ok = verdict.ok && assumed.length === 0;
+  process.stdout.write(`${JSON.stringify({ ...verdict, ok, steps, assumed })}\n`);
+  if (assumed.length > 0)
+    process.stderr.write(
+      "twincell: The verdict is not ok: what the lines above do only the controller knows. Give the files that hold it.\n",
+    );
   for (const { verdict: says, file, line, findings } of steps)
     if (says === "bad")
       for (const { sentence } of findings) process.stderr.write(`twincell: ${file}, line ${line}: ${sentence}\n`);
-  return verdict.ok ? 0 : 1;
+  return ok ? 0 : 1;
 }
 
 function verified(answer: ProgramCertificateVerdict): string {

@@ -39,3 +39,35 @@ test("what of a text is shown and not executed is a finding at its line", () => 
     },
   });
 });
+
+test("lines that do what only the controller knows are told apart: a called program that is in none of the files", () => {
+  const text = [
+    "/PROG MAIN",
+    "/MN",
+    "   1:  J P[1] 50% FINE ;",
+    "   2:  CALL PICK ;",
+    "/POS",
+    "P[1]{",
+    "   GP1:",
+    "  UF : 0, UT : 1,",
+    "  J1= 0.000 deg, J2= 0.000 deg, J3= 0.000 deg,",
+    "  J4= 0.000 deg, J5= -90.000 deg, J6= 0.000 deg",
+    "};",
+    "/END",
+    "",
+  ].join("\n");
+  const answer = textTask({
+    kind: "read",
+    id: 1,
+    language: "fanuc-ls",
+    name: "main",
+    files: [{ name: "main.ls", text }],
+    main: "main.ls",
+    robot: "fanuc_lrmate200id",
+    worldFromBase: identity(),
+  });
+  if (answer.kind !== "read") throw new Error(answer.kind);
+  expect(answer.read.program?.steps).toHaveLength(1);
+  expect(answer.read.assumed.map(({ line }) => line)).toContain(4);
+  expect(answer.read.assumed.find(({ line }) => line === 4)!.sentence).toContain("PICK");
+});

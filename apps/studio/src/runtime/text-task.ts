@@ -1,5 +1,5 @@
-import { robotById, type Step } from "@twincell/core";
-import { dialectById, executeText, findPoints, joinFiles, touchUpPoint } from "@twincell/languages";
+import { robotById, type Step, type TextFault } from "@twincell/core";
+import { dialectById, executeText, findPoints, joinFiles, NOT_GIVEN, touchUpPoint } from "@twincell/languages";
 import type { FromTextWorker, ReadTextProgram, TextFinding, ToTextWorker } from "../workers/text-messages.ts";
 
 /** The body of the text worker: a text is read and executed, or one of its points rewritten. Pure. */
@@ -25,7 +25,7 @@ export function textTask(task: ToTextWorker): FromTextWorker {
     const findings = executed.faults.map(
       ({ line, sentence }): TextFinding => ({ ...at(line), verdict: "bad", sentence }),
     );
-    return { kind: "read", id, read: { points, program: null, places: [], findings } };
+    return { kind: "read", id, read: { points, program: null, places: [], findings, assumed: [] } };
   }
   const found = points.kind === "found" ? points.points : [];
   const named = executed.program.steps.map((step): Step => {
@@ -33,6 +33,7 @@ export function textTask(task: ToTextWorker): FromTextWorker {
     const point = found.find(each => each.uses.some(use => use.whole && use.file === file && use.motionLine === line));
     return { ...step, name: point === undefined || point.name === "" ? step.id : point.name };
   });
+  const warned = ({ line, sentence }: TextFault): TextFinding => ({ ...at(line), verdict: "warn", sentence });
   const cut = /^Line (\d+)/.exec(executed.cut ?? "");
   const read: ReadTextProgram = {
     points,
@@ -40,11 +41,12 @@ export function textTask(task: ToTextWorker): FromTextWorker {
     places: [...executed.lines].map(([step, line]) => [step, at(line)] as const),
     findings: [
       ...executed.skipped.map(({ line, sentence }): TextFinding => ({ ...at(line), verdict: "warn", sentence })),
-      ...executed.notExecuted.map(({ line, sentence }): TextFinding => ({ ...at(line), verdict: "warn", sentence })),
+      ...executed.notExecuted.map(warned),
       ...(executed.cut === undefined || cut === null
         ? []
         : [{ ...at(Number(cut[1])), verdict: "warn" as const, sentence: executed.cut }]),
     ],
+    assumed: executed.notExecuted.filter(({ expected }) => expected === NOT_GIVEN).map(warned),
   };
   return { kind: "read", id, read };
 }

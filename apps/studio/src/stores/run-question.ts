@@ -4,9 +4,9 @@ import { createStore } from "zustand/vanilla";
 export interface RunQuestion {
   /**
    * "checking": waits for the check. "red": it found something. "unchecked": it could not be done, and `sentence` says
-   * why.
+   * why. "assumed": lines of a vendor's text do what only the controller knows, and the check judged the rest.
    */
-  readonly kind: "checking" | "red" | "unchecked";
+  readonly kind: "checking" | "red" | "unchecked" | "assumed";
   readonly sentence: string;
   /** Connected robots that it would move. */
   readonly ids: readonly string[];

@@ -35,6 +35,8 @@ export interface ReadTextProgram {
   /** Step id and its place, in the order of execution. */
   readonly places: readonly (readonly [string, LinePlace])[];
   readonly findings: readonly TextFinding[];
+  /** Those of them that say what only the controller knows: what the check finds holds without these lines. */
+  readonly assumed: readonly TextFinding[];
 }
 export type FromTextWorker =
   | { readonly kind: "read"; readonly id: number; readonly read: ReadTextProgram }

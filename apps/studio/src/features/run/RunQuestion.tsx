@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { useStore } from "zustand";
-import { leaveRunQuestion, seenFindings } from "../../runtime/run/ask-before-run.ts";
+import { leaveRunQuestion, linesAssumed, seenFindings } from "../../runtime/run/ask-before-run.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { dialogStore } from "../../stores/dialogs.ts";
 import { programOf } from "../../stores/document.ts";
@@ -17,6 +17,28 @@ import "./run.css";
 
 /** So many findings are named; the rest is counted. */
 const NAMED = 3;
+
+/** What of a vendor's text only the controller knows, line by line. */
+function Assumed() {
+  const { assumed, files } = linesAssumed();
+  return (
+    <div className="stack">
+      <p>{words.runQuestion.assumed(assumed.length)}</p>
+      <ul className="run-findings">
+        {assumed.slice(0, NAMED).map(({ file, line, sentence }) => (
+          <li key={`${file} ${line} ${sentence}`}>
+            <i className="mark" data-verdict="warn" aria-hidden />
+            <span>
+              <b>{words.runQuestion.line(files[file] ?? "", line)}</b> {say(sentence)}
+            </span>
+          </li>
+        ))}
+      </ul>
+      {assumed.length > NAMED && <p className="small muted">{words.runQuestion.more(assumed.length - NAMED)}</p>}
+      <p className="small muted">{words.runQuestion.guard}</p>
+    </div>
+  );
+}
 
 /** Asked before a program runs whose check is not content, or not done. */
 export default function RunQuestion() {
@@ -95,6 +117,7 @@ export default function RunQuestion() {
           <p className="small muted">{words.runQuestion.guard}</p>
         </div>
       )}
+      {open && question.kind === "assumed" && <Assumed />}
       {open && question.kind !== "checking" && real.length > 0 && (
         <label className="stack run-typed">
           <span>{words.runQuestion.type(real.join(", "))}</span>

@@ -180,9 +180,14 @@ export const controlWords = {
       checking: "Die Prüfung läuft",
       red: "Die Prüfung ist rot",
       unchecked: "Nicht geprüft",
+      assumed: "Nicht der ganze Text ist bekannt",
     },
     "checking(percent: number)": "Das Programm läuft, sobald es geprüft ist: {percent} % fertig.",
     unchecked: "Dieses Programm wurde nicht geprüft. Was es berührt oder nicht erreicht, ist unbekannt.",
+    "assumed(count: number)":
+      "Die Prüfung fand nichts in dem, was sie kennt. {count, plural, one {Eine Zeile tut} other {# Zeilen tun}}, " +
+      "was nur die Steuerung weiß:",
+    "line(file, line: number)": "{file}, Zeile {line}",
     "red(count: number)": "{count, plural, one {Die Prüfung fand ein Problem:} other {Die Prüfung fand # Probleme:}}",
     "more(count: number)": "{count} weitere unter Prüfen.",
     guard:

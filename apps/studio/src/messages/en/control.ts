@@ -167,9 +167,14 @@ export const controlWords = {
       checking: "The check is under way",
       red: "The check is red",
       unchecked: "Not checked",
+      assumed: "Not all of the text is known",
     },
     "checking(percent: number)": "The program runs as soon as it is checked: {percent} % done.",
     unchecked: "This program has not been checked. What it touches or cannot reach is not known.",
+    "assumed(count: number)":
+      "The check found nothing in what it knows. {count, plural, one {One line does} other {# lines do}} what only " +
+      "the controller knows:",
+    "line(file, line: number)": "{file}, line {line}",
     "red(count: number)": "{count, plural, one {The check found a problem:} other {The check found # problems:}}",
     "more(count: number)": "{count} more in Check.",
     guard:

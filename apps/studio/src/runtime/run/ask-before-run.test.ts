@@ -1,5 +1,5 @@
 import type { StepReport, Verdict } from "@twincell/core";
-import { edgeTraceCell, tracedCartonCell } from "@twincell/project";
+import { addProgram, edgeTraceCell, emptyCell, textFileOf, tracedCartonCell } from "@twincell/project";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { registerCommands } from "../../stores/commands.ts";
 import { dialogStore, openDialog } from "../../stores/dialogs.ts";
@@ -8,7 +8,9 @@ import { playStore } from "../../stores/play.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
 import { stationStore, type StationState } from "../../stores/stations.ts";
 import { stopEverything } from "../../stores/stop.ts";
-import { askBeforeRun, leaveRunQuestion, seenFindings, startRunQuestions } from "./ask-before-run.ts";
+import { textStore } from "../../stores/text.ts";
+import type { ReadTextProgram } from "../../workers/text-messages.ts";
+import { askBeforeRun, leaveRunQuestion, linesAssumed, seenFindings, startRunQuestions } from "./ask-before-run.ts";
 
 const verdictOf = (ok: boolean): Verdict => ({
   ok,
@@ -46,6 +48,35 @@ test("a program whose check is content begins at once; a red one asks, and begin
   askBeforeRun(begin);
   runQuestionStore.getState().question!.proceed([]);
   expect(begun).toBe(2);
+});
+
+test("a green check of a vendor's text with lines that only the controller knows asks; without such lines it begins", () => {
+  playStore.setState({ stale: false, checking: null, trouble: null, verdict: verdictOf(true) });
+  const bytes = new TextEncoder().encode("/PROG MAIN\n/MN\n1: CALL PICK ;\n/END\n");
+  const opened = addProgram(emptyCell("fanuc_lrmate200id"), {
+    format: "twincell.text-program",
+    version: 1,
+    robot: "fanuc_lrmate200id",
+    name: "main",
+    language: "fanuc-ls",
+    main: "main.ls",
+    files: [textFileOf("main.ls", bytes)],
+  });
+  showDocument(opened);
+  const read = { points: { kind: "none" as const, sentence: "" }, program: null, places: [], findings: [] };
+  const line = {
+    file: 0,
+    line: 3,
+    verdict: "warn" as const,
+    sentence: "What PICK does, motions too, is not executed.",
+  };
+  textStore.setState({ read: { ...read, assumed: [line] } as unknown as ReadTextProgram });
+  askBeforeRun(begin);
+  expect([begun, asked(), linesAssumed()]).toEqual([0, "assumed", { assumed: [line], files: ["main.ls"] }]);
+  leaveRunQuestion();
+  textStore.setState({ read: { ...read, assumed: [] } as unknown as ReadTextProgram });
+  askBeforeRun(begin);
+  expect([begun, asked()]).toEqual([1, undefined]);
 });
 
 test("who goes on in spite of a red check goes on in spite of what was shown, and of nothing when it is green", () => {

@@ -1,12 +1,14 @@
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { closeDialog, dialogStore, openDialog } from "../../stores/dialogs.ts";
-import { programOf } from "../../stores/document.ts";
+import { programOf, textOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationLive } from "../robot/stations.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
 import { stationOf } from "../../stores/stations.ts";
 import { onStop } from "../../stores/stop.ts";
+import { textStore } from "../../stores/text.ts";
+import type { TextFinding } from "../../workers/text-messages.ts";
 
 /**
  * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is
@@ -19,11 +21,13 @@ import { onStop } from "../../stores/stop.ts";
 export function askBeforeRun(proceed: (despite: readonly string[]) => void, ids: readonly string[] = []): void {
   const { stale, checking, verdict, trouble } = playStore.getState();
   const program = programOf(cellStore.getState().document);
-  if (program?.steps.length === 0 || (!stale && verdict?.ok === true)) {
+  const isGreen = !stale && verdict?.ok === true;
+  const { assumed } = linesAssumed();
+  if (program?.steps.length === 0 || (isGreen && assumed.length === 0)) {
     proceed([]);
     return;
   }
-  const kind = stale ? "checking" : verdict ? "red" : "unchecked";
+  const kind = stale ? "checking" : isGreen ? "assumed" : verdict ? "red" : "unchecked";
   runQuestionStore.setState({ question: { kind, sentence: trouble ?? "", ids, real: realAmong(ids), proceed } });
   openDialog("run-question");
   // One that was cancelled begins anew.
@@ -38,6 +42,15 @@ export function askBeforeSending(ids: readonly string[], proceed: (despite: read
   const robot = cellStore.getState().document?.robot.id;
   if (ids.some(id => stationLive(id)?.robot.id === robot)) askBeforeRun(proceed, ids);
   else proceed([]);
+}
+
+/** Lines of the vendor's text in use of which the check knows only a part, and the files they stand in. */
+export function linesAssumed(): { readonly assumed: readonly TextFinding[]; readonly files: readonly string[] } {
+  const text = textOf(cellStore.getState().document);
+  const { read } = textStore.getState();
+  return text && read
+    ? { assumed: read.assumed, files: text.files.map(({ name }) => name) }
+    : { assumed: [], files: [] };
 }
 
 const realAmong = (ids: readonly string[]): string[] =>
