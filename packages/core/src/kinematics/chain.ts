@@ -25,7 +25,7 @@ export const armScratch = (): ArmScratch => ({
 });
 
 const KEPT = new WeakMap<SerialArm, ArmScratch>();
-/** Working memory for callers that bring none: one for each arm, since laying an arm out costs more than a pose of it. */
+/** Working memory for callers that bring none: one an arm, since laying an arm out costs more than a pose of it. */
 export function keptScratch(arm: SerialArm): ArmScratch {
   const kept = KEPT.get(arm);
   if (kept !== undefined) return kept;
