@@ -139,11 +139,11 @@ test("a robot that stands on another controller of the vendor's is refused with 
     await openRobotConnection({ id: "a", brand: staubliCs7, robot: rx160, scheduler, dialect: vPlus }),
   ).toMatchObject({
     kind: "refused",
-    why: { sentence: "Stäubli RX160 does not stand on a controller of Stäubli CS7 (V+)." },
+    why: { sentence: "Stäubli RX160 does not stand on a controller of Stäubli CS7 (V+); its drivers are staubli." },
   });
   expect(await openRobotConnection({ id: "b", brand: staubli, robot, scheduler, dialect: val3 })).toMatchObject({
     kind: "refused",
-    why: { sentence: "Stäubli RX90L does not stand on a controller of Stäubli (VAL 3)." },
+    why: { sentence: "Stäubli RX90L does not stand on a controller of Stäubli (VAL 3); its drivers are staubli-cs7." },
   });
 });
 

@@ -57,14 +57,17 @@ export class PlanFollower {
   private search(from_s: number, { step_s, back, ahead }: Search, measured_rad: ArrayLike<number>): number {
     let best = this.far(this.t_s, measured_rad);
     let best_s = this.t_s;
-    for (let k = -back; k <= ahead; k++) {
+    // Ahead first: a plan that turns round passes the same places twice, and a robot does not go back along it.
+    for (let i = 0; i <= ahead + back; i++) {
+      const k = i <= ahead ? i : ahead - i;
       const t_s = Math.min(this.plan.duration_s, Math.max(0, from_s + k * step_s));
-      const far = this.far(t_s, measured_rad);
+      const far = this.far(t_s, measured_rad) + (k < 0 ? THERE_RAD : 0);
       if (far < best) {
         best = far;
         best_s = t_s;
       }
     }
+    best = this.far(best_s, measured_rad);
     for (let width = step_s / 2, i = 0; i < HALVINGS; i++, width /= 2) {
       for (const t_s of [best_s - width, best_s + width]) {
         if (t_s < 0 || t_s > this.plan.duration_s) continue;
