@@ -174,27 +174,3 @@ test("a newer version waits for the person, takes nothing that was made, and fet
   expect(await page.evaluate(() => caches.keys())).toEqual(["twincell-newer"]);
   await context.close();
 }, 600_000);
-
-test("a worker that answers every page with an error is replaced by the next good one, and the page opens by itself", async () => {
-  const { page, context } = await studio.open({ offline: true });
-  page.setDefaultTimeout(120_000);
-  await page.goto(web.url);
-  await drawn(page);
-  await kept(page);
-  const good = readFileSync(join(web.folder, "sw.js"), "utf8");
-  writeFileSync(
-    join(web.folder, "sw.js"),
-    'self.addEventListener("install", () => self.skipWaiting()); self.addEventListener("activate", event => event.waitUntil(self.clients.claim())); self.addEventListener("fetch", event => event.respondWith(new Response("broken", { status: 500 })));',
-  );
-  await page.evaluate(async () => {
-    await (await navigator.serviceWorker.getRegistration())!.update();
-  });
-  await expect
-    .poll(async () => (await page.goto(web.url).catch(() => null))?.status() ?? 0, { timeout: 30_000 })
-    .toBe(500);
-  writeFileSync(join(web.folder, "sw.js"), good.replace(/const VERSION = "[^"]*"/, 'const VERSION = "cured"'));
-  await page.goto(web.url).catch(() => null);
-  await page.waitForFunction(() => "twincell" in window, null, { timeout: 120_000, polling: 500 });
-  await drawn(page);
-  await context.close();
-}, 600_000);
