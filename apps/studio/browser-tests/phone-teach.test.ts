@@ -52,6 +52,17 @@ const paths = (page: Page): Promise<string[]> =>
   );
 const BENT_DEG = [0, -50, 190, 0, 40, 0];
 
+/** Waits until the page was drawn so often: time enough for a robot that still moves to be seen moving. */
+const framesDrawn = (page: Page, count: number): Promise<void> =>
+  page.evaluate(async wanted => {
+    for (let i = 0; i < wanted; i++)
+      await new Promise<void>(resolve => {
+        requestAnimationFrame(() => {
+          resolve();
+        });
+      });
+  }, count);
+
 describe.each([
   { width: 390, height: 844 },
   { width: 360, height: 740 },
@@ -70,7 +81,7 @@ describe.each([
     const start = await tcp(page);
 
     await fingers.put(1, pad.x, pad.y - pad.rim);
-    await page.waitForTimeout(300);
+    await framesDrawn(page, 20);
     await fingers.lift(1);
     expect(distance(await tcp(page), start), "without the switch").toBe(0);
 
@@ -84,7 +95,7 @@ describe.each([
     // The switch let go under a held pad: at once nothing.
     await fingers.lift(2);
     const stopped = await tcp(page);
-    await page.waitForTimeout(400);
+    await framesDrawn(page, 20);
     expect(distance(await tcp(page), stopped)).toBeLessThan(0.004);
     await fingers.lift(1);
 
@@ -93,7 +104,7 @@ describe.each([
     await page.waitForFunction(z => window.twincell.live.now().worldFromTcp.position[2] > z + 0.01, stopped[2]);
     await fingers.lift(1);
     const up = await tcp(page);
-    await page.waitForTimeout(300);
+    await framesDrawn(page, 20);
     expect(distance(await tcp(page), up), "the pad let go").toBeLessThan(0.004);
     await fingers.lift(2);
 
