@@ -26,8 +26,8 @@ import {
   rmiBytes,
   rmiNumber,
   type RmiPacket,
-} from "../codec-rmi.ts";
-import { configurationOf, JOINTS } from "../configuration.ts";
+} from "../codec/rmi.ts";
+import { configurationOf, JOINTS } from "../codec/configuration.ts";
 import { instructionOf, type Instruction } from "./instructions.ts";
 import { serveFtp } from "./ftp-server.ts";
 import { FanucMachine, T1_MPS, type FanucKey } from "./machine.ts";

@@ -1,5 +1,5 @@
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
-import { FtpLines, lineBytes, MAX_FILE, passiveText, readCommand, type FtpCommand } from "../codec-ftp.ts";
+import { FtpLines, lineBytes, MAX_FILE, passiveText, readCommand, type FtpCommand } from "../codec/ftp.ts";
 import type { Programs } from "./programs.ts";
 
 export interface FtpServerOptions {

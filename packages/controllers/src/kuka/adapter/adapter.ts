@@ -9,11 +9,11 @@ import {
 } from "@twincell/core";
 import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { AXES, e6axis, e6pos, kukaAxes } from "../axes.ts";
-import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec-c3.ts";
-import { krlReal, numberIn, textIn } from "../codec-values.ts";
-import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
-import { isKukaModel } from "../models.ts";
+import { AXES, e6axis, e6pos, kukaAxes } from "../codec/axes.ts";
+import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec/c3.ts";
+import { krlReal, numberIn, textIn } from "../codec/values.ts";
+import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../codec/loop.ts";
+import { isKukaModel } from "../codec/models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
 import { handKrl, programOf, runKrl } from "./text.ts";

@@ -15,9 +15,9 @@ import {
   type Opened,
 } from "../../driver/index.ts";
 import type { DatagramSocket } from "../../transport/index.ts";
-import { AXES, kukaAxes } from "../axes.ts";
-import { readRsi, rsiAxes, rsiWriter, type RsiConfig } from "../codec-rsi.ts";
-import { RSI_NAME } from "../loop.ts";
+import { AXES, kukaAxes } from "../codec/axes.ts";
+import { readRsi, rsiAxes, rsiWriter, type RsiConfig } from "../codec/rsi.ts";
+import { RSI_NAME } from "../codec/loop.ts";
 import { createKukaAdapter, type KukaAdapterOptions } from "./adapter.ts";
 import * as say from "./words.ts";
 

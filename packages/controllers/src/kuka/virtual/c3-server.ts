@@ -1,8 +1,8 @@
 import type { Scheduler } from "@twincell/core";
 import { faultyLine, type ByteStream, type Listening, type Network } from "../../transport/index.ts";
-import { C3_COMMAND, C3_ERROR, C3_TYPE, C3Reader, C3Writer, FILE_STEP, isC3Type } from "../codec-c3.ts";
-import { writeC3Reply, type C3Reply } from "../codec-c3-replies.ts";
-import { readC3Request, type C3Request } from "../codec-c3-requests.ts";
+import { C3_COMMAND, C3_ERROR, C3_TYPE, C3Reader, C3Writer, FILE_STEP, isC3Type } from "../codec/c3.ts";
+import { writeC3Reply, type C3Reply } from "../codec/c3-replies.ts";
+import { readC3Request, type C3Request } from "../codec/c3-requests.ts";
 import type { KukaFaults } from "./faults.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";

@@ -2,11 +2,11 @@ import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@t
 import { slowed } from "../../guard/index.ts";
 import type { DatagramSocket, Listening, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { kukaAxes } from "../axes.ts";
-import { C3_PORT } from "../codec-c3.ts";
-import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec-discovery.ts";
-import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../loop.ts";
-import { kukaModel } from "../models.ts";
+import { kukaAxes } from "../codec/axes.ts";
+import { C3_PORT } from "../codec/c3.ts";
+import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec/discovery.ts";
+import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../codec/loop.ts";
+import { kukaModel } from "../codec/models.ts";
 import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
 import type { Builtin } from "./builtin.ts";

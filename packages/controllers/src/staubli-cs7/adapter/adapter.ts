@@ -24,7 +24,7 @@ import {
   TASK,
   TWC,
   JOINTS,
-} from "../codec.ts";
+} from "../codec/monitor.ts";
 import { openLine, type Line } from "./line.ts";
 import {
   beyond,

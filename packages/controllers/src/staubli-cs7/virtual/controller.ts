@@ -9,7 +9,7 @@ import {
 import { slowed } from "../../guard/index.ts";
 import { faultyLine, noLineFaults, type ByteStream, type LineFaults, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { isText, LINE_PORT, LONGEST, textBytes, JOINTS } from "../codec.ts";
+import { isText, LINE_PORT, LONGEST, textBytes, JOINTS } from "../codec/monitor.ts";
 import { Machine } from "./machine.ts";
 import { createMonitor, type Said } from "./monitor.ts";
 import { Programs } from "./programs.ts";

@@ -11,7 +11,7 @@ import {
   axesOfJoints,
 } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { readPoint, STATE, stateName, valuesText, whereText, JOINTS } from "../codec.ts";
+import { readPoint, STATE, stateName, valuesText, whereText, JOINTS } from "../codec/monitor.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
 

@@ -18,8 +18,8 @@ import {
   REPLY,
   SEQUENCE,
   type Message,
-} from "../codec.ts";
-import { JOINTS, speaksSimpleMessage } from "../robots.ts";
+} from "../codec/simple-message.ts";
+import { JOINTS, speaksSimpleMessage } from "../codec/robots.ts";
 import { isByHand, modeOf, safetyOf, sentenceOf } from "./state.ts";
 import {
   beyond,

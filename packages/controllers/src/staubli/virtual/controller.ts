@@ -20,7 +20,7 @@ import {
   SEQUENCE,
   statusBytes,
   type Message,
-} from "../codec.ts";
+} from "../codec/simple-message.ts";
 import { Machine, MANUAL_MPS, ES, type StaubliMode } from "./machine.ts";
 import { serveSocket } from "./server.ts";
 import { Stack } from "./stack.ts";

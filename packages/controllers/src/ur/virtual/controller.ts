@@ -17,7 +17,7 @@ import {
 } from "../codec/primary.ts";
 import type { Version } from "../codec/rtde.ts";
 import type { Field } from "../codec/rtde-fields.ts";
-import type { ScriptFault } from "../script/index.ts";
+import type { ScriptFault } from "./script/index.ts";
 import { DashboardServer } from "./dashboard-server.ts";
 import { noFaults, Outbox, type UrFaults } from "./faults.ts";
 import { GRIPPER_BIT, NamedLines } from "./lines.ts";

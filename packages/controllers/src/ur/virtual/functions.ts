@@ -24,7 +24,7 @@ import {
   type Arguments,
   type ScriptFunction,
   type Value,
-} from "../script/index.ts";
+} from "./script/index.ts";
 import type { Memory } from "./memory.ts";
 import type { Mover } from "./mover.ts";
 
