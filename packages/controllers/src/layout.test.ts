@@ -4,7 +4,7 @@ import { expect, test } from "vitest";
 const here = (path: string): URL => new URL(path, import.meta.url);
 const entries = (path: string): readonly string[] => readdirSync(here(path)).filter(name => name !== "testing");
 const VENDORS = readdirSync(here("."), { withFileTypes: true })
-  .filter(entry => entry.isDirectory() && entries(`./${entry.name}`).includes("brand.ts"))
+  .filter(entry => entry.isDirectory() && entry.name !== "driver" && entries(`./${entry.name}`).includes("brand.ts"))
   .map(({ name }) => name);
 
 test("every driver has its folder", () => {

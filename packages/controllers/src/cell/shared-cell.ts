@@ -113,17 +113,29 @@ export function createSharedCell({
   between_m = BETWEEN_ROBOTS_M,
   yielded_m = YIELDED_M,
 }: SharedCellOptions = {}): SharedCell {
-  const members = new Set<Member>();
-  const solidCache = new SolidCache();
-  const solids = new Map<string, readonly LinkSolid[]>();
-  let opened = 0;
-  const solidsOf = (robot: Robot): readonly LinkSolid[] => {
-    const known = solids.get(robot.id) ?? linkSolids(robot);
-    solids.set(robot.id, known);
-    return known;
-  };
+  return sharedCellOf(new SharedCellState({ between_m, yielded_m }));
+}
 
-  function join(options: PlaceOptions): CellMember {
+class SharedCellState {
+  readonly between_m: number;
+  readonly yielded_m: number;
+  readonly members = new Set<Member>();
+  readonly solidCache = new SolidCache();
+  readonly solids = new Map<string, readonly LinkSolid[]>();
+  opened = 0;
+
+  constructor({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIELDED_M }: SharedCellOptions = {}) {
+    this.between_m = between_m;
+    this.yielded_m = yielded_m;
+  }
+
+  solidsOf(robot: Robot): readonly LinkSolid[] {
+    const known = this.solids.get(robot.id) ?? linkSolids(robot);
+    this.solids.set(robot.id, known);
+    return known;
+  }
+
+  readonly join = (options: PlaceOptions): CellMember => {
     const { robot, name, id } = options;
     const n = robot.arm.joints.length;
     const stand = copyPose(options.worldFromBase);
@@ -131,9 +143,15 @@ export function createSharedCell({
     const q_rad = Float64Array.from(robot.home_rad);
     const ahead_rad = Float64Array.from(robot.home_rad);
     const collider = new CellCollider(
-      { worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
+      {
+        worldFromBase: stand,
+        links: this.solidsOf(robot),
+        objects: [],
+        allowedPairs: [],
+        shapeError_m: robot.shapeError_m,
+      },
       robot.arm,
-      solidCache,
+      this.solidCache,
     );
     const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
 
@@ -166,7 +184,7 @@ export function createSharedCell({
     }
     const yields = (to: Neighbour): boolean => to.member.moving && !(to.member.guarded && to.member.rank > member.rank);
     /** What must be left between, errors of both shapes in it. */
-    const wanted = (to: Neighbour): number => between_m + (yields(to) ? yielded_m : 0) + to.error_m;
+    const wanted = (to: Neighbour): number => this.between_m + (yields(to) ? this.yielded_m : 0) + to.error_m;
 
     /** The nearest of what both may come to within the time they need to stop, below what is kept; else Infinity. */
     function onTheWay(to: Neighbour, kept_m: number, exactly: boolean): number {
@@ -189,7 +207,7 @@ export function createSharedCell({
     const member: Member = {
       id,
       options,
-      rank: opened++,
+      rank: this.opened++,
       q_rad,
       ahead_rad,
       moving: false,
@@ -207,9 +225,9 @@ export function createSharedCell({
         }
         member.moving = apart_rad > STILL_RAD;
       },
-      begin() {
+      begin: () => {
         for (const to of neighbours) {
-          const kept_m = between_m + yielded_m + to.error_m;
+          const kept_m = this.between_m + this.yielded_m + to.error_m;
           const here_m = below(to, q_rad, to.member.q_rad, kept_m, true);
           to.floor_m = here_m < kept_m ? here_m - NO_NEARER_M : Infinity;
         }
@@ -231,27 +249,27 @@ export function createSharedCell({
         }
         return null;
       },
-      targetRefusal(target_rad) {
+      targetRefusal: target_rad => {
         for (const to of neighbours) {
           if (to.member.moving) continue;
-          const kept_m = between_m + to.error_m;
+          const kept_m = this.between_m + to.error_m;
           const there_m = below(to, target_rad, to.member.q_rad, kept_m, true);
           // Away from where it stands too near already, it may go in small steps.
           if (there_m < kept_m && there_m < below(to, q_rad, to.member.q_rad, kept_m, true))
-            return wouldStandNear(name, to.name, Math.max(0, there_m - to.error_m), between_m);
+            return wouldStandNear(name, to.name, Math.max(0, there_m - to.error_m), this.between_m);
         }
         return null;
       },
-      leave() {
-        members.delete(member);
-        for (const each of members) each.forget(member);
+      leave: () => {
+        this.members.delete(member);
+        for (const each of this.members) each.forget(member);
       },
-      meet(other) {
+      meet: other => {
         const arm = new OtherArm(
           other.id,
           other.options.name,
           other.options.robot,
-          solidsOf(other.options.robot),
+          this.solidsOf(other.options.robot),
           other.options.worldFromBase,
           other.q_rad,
         );
@@ -268,7 +286,7 @@ export function createSharedCell({
           get moving() {
             return other.moving || other.path !== null;
           },
-          kept_m: between_m,
+          kept_m: this.between_m,
           error_m: marginToLinks(robot, other.options.robot),
           expected(in_s, out) {
             if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
@@ -285,14 +303,17 @@ export function createSharedCell({
         neighbours.splice(at, 1);
       },
     };
-    for (const each of members) {
+    for (const each of this.members) {
       each.meet(member);
       member.meet(each);
     }
-    members.add(member);
+    this.members.add(member);
     return member;
-  }
-  return { join };
+  };
+}
+
+function sharedCellOf(own: SharedCellState): SharedCell {
+  return { join: own.join };
 }
 
 /** A robot whose joints would come to rest within this stands [rad]. */

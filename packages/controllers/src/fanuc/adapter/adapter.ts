@@ -9,8 +9,16 @@ import {
   type Scheduler,
   jointsOfAxes,
   axesOfJoints,
+  type VendorSection,
 } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
+import {
+  DriverStates,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterMotion,
+  type AdapterOrder,
+  type Opened,
+} from "../../driver/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
 import { FTP_PORT, programOf } from "../codec/ftp.ts";
 import {
@@ -19,13 +27,13 @@ import {
   RMI_PORT,
   RmiReader,
   rmiBytes,
-  rmiErrorWords,
   rmiJoints,
   rmiNumber,
   type RmiKey,
   type RmiPacket,
 } from "../codec/rmi.ts";
 import { putFiles } from "./ftp-client.ts";
+import { AT_PENDANT, closedHere, noAnswer, refusal, said } from "./words.ts";
 import { JOINTS } from "../codec/configuration.ts";
 import { stoppedInReset } from "../../refusals.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
@@ -65,17 +73,6 @@ const STANDS_DEG = 2e-4;
 /** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
 const STALE_S = 0.08;
 const OUTPUT = /^DO\[([0-9]{1,4})\]$/;
-const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
-const noAnswer = (sentence: string): Refusal =>
-  refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
-const closedHere = refusal(
-  "link.closed",
-  "The connection was closed while the robot moved.",
-  "Connect again, then command the move again.",
-);
-const said = (id: number, hint: string): Refusal =>
-  refusal("fanuc.refused", `The controller refused: ${rmiErrorWords(id)}.`, hint);
-const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then command the move again.";
 
 /**
  * A FANUC controller over its Remote Motion Interface: states by two questions a poll, motions one instruction at a
@@ -84,80 +81,104 @@ const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then c
  * model.
  */
 export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, host } = options;
-  const joints = sectionForDriver(robot, "fanuc");
-  const period_s = options.period_s ?? 0.02;
-  const values = new Map<string, boolean | number>();
-  const inputs = (options.signals ?? []).filter(signal => /^DI\[[0-9]+\]$/.test(signal));
-  const j_deg = new Float64Array(JOINTS).fill(NaN);
-  const before_deg = new Float64Array(JOINTS);
-  const lent: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad: new Float64Array(JOINTS),
-    moving: false,
-    mode: "remote",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    message: "",
-    signals: values,
-  };
-  let stream: ByteStream | null = null;
-  let events: AdapterEvents | null = null;
-  let stopPolling: (() => void) | null = null;
-  let life = 0;
-  let polling = false;
-  const asked: {
+  return fanucAdapterOf(new FanucWire(options));
+}
+
+class FanucWire extends DriverStates<Moving> {
+  protected readonly closedBecause = closedHere;
+  readonly options: FanucAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly joints: VendorSection | undefined;
+  readonly period_s: number;
+  readonly values = new Map<string, boolean | number>();
+  readonly inputs: string[];
+  readonly j_deg = new Float64Array(JOINTS).fill(NaN);
+  readonly before_deg = new Float64Array(JOINTS);
+  readonly lent: Lent;
+  stream: ByteStream | null = null;
+  stopPolling: (() => void) | null = null;
+  polling = false;
+  readonly asked: {
     readonly key: RmiKey;
     readonly name: string;
     readonly since_s: number;
     readonly answer: (fields: Fields | null) => void;
   }[] = [];
-  let stops = 0;
-  let moving: Moving | null = null;
-  let running = false;
-  let paused = false;
-  let locked = false;
-  let servos = true;
-  let pendant = false;
-  let fault = "";
-  let next = 1;
-  let time_ms = NaN;
-  let polls = 0;
+  stops = 0;
+  running = false;
+  paused = false;
+  locked = false;
+  servos = true;
+  pendant = false;
+  fault = "";
+  next = 1;
+  time_ms = NaN;
+  polls = 0;
 
-  const wasStopped = (): Refusal =>
-    refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
-  const settle = (outcome: CommandOutcome): void => {
-    const ended = moving;
-    moving = null;
-    ended?.resolve(outcome);
-  };
-  const ask = (key: RmiKey, name: string, fields: Fields = {}): Promise<Fields | null> =>
-    new Promise(resolve => {
-      if (!stream) {
+  constructor(options: FanucAdapterOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.joints = sectionForDriver(this.robot, "fanuc");
+    this.period_s = this.options.period_s ?? 0.02;
+    this.inputs = (this.options.signals ?? []).filter(signal => /^DI\[[0-9]+\]$/.test(signal));
+    this.lent = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: new Float64Array(JOINTS),
+      moving: false,
+      mode: "remote",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      message: "",
+      signals: this.values,
+    };
+  }
+
+  wasStopped(): Refusal {
+    return refusal(
+      "controller.stopped",
+      `${this.robot.name} was stopped.`,
+      "Command the move again when the way is clear.",
+    );
+  }
+
+  ask(key: RmiKey, name: string, fields: Fields = {}): Promise<Fields | null> {
+    return new Promise(resolve => {
+      if (!this.stream) {
         resolve(null);
         return;
       }
-      asked.push({ key, name, since_s: scheduler.now_s(), answer: resolve });
-      stream.send(rmiBytes({ key, name, fields }));
+      this.asked.push({ key, name, since_s: this.scheduler.now_s(), answer: resolve });
+      this.stream.send(rmiBytes({ key, name, fields }));
     });
-  const order = async (name: string, fields: Fields = {}): Promise<number> => {
-    const reply = await ask("Command", name, fields);
-    return reply ? rmiNumber(reply, "ErrorID") : NaN;
-  };
+  }
 
-  function take({ key, name, fields }: RmiPacket): void {
+  async order(name: string, fields: Fields = {}): Promise<number> {
+    const reply = await this.ask("Command", name, fields);
+    return reply ? rmiNumber(reply, "ErrorID") : NaN;
+  }
+
+  take({ key, name, fields }: RmiPacket): void {
     if (key === "Communication" && name === "FRC_SystemFault") {
-      running = false;
-      void ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
+      this.running = false;
+      void this.ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
         const text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
-        if (text !== "") fault = text;
-        settle(
+        if (text !== "") this.fault = text;
+        this.settle(
           stopped(
             refusal(
               "fanuc.fault",
-              fault === "" ? "The controller stopped the program." : `The controller stopped the program: ${fault}.`,
+              this.fault === ""
+                ? "The controller stopped the program."
+                : `The controller stopped the program: ${this.fault}.`,
               AT_PENDANT,
             ),
           ),
@@ -167,12 +188,12 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
     }
     // Commands are answered in order, an instruction when it has been carried out.
     const sequence = rmiNumber(fields, "SequenceID");
-    const at = asked.findIndex(each => each.key === key && each.name === name);
+    const at = this.asked.findIndex(each => each.key === key && each.name === name);
     if (at >= 0) {
-      const [mine] = asked.splice(at, 1);
-      events?.roundTrip(scheduler.now_s() - mine!.since_s);
+      const [mine] = this.asked.splice(at, 1);
+      this.events?.roundTrip(this.scheduler.now_s() - mine!.since_s);
       mine!.answer(fields);
-    } else if (key === "Instruction" && moving?.sequence === sequence) {
+    } else if (key === "Instruction" && this.moving?.sequence === sequence) {
       const id = rmiNumber(fields, "ErrorID");
       const outcome =
         id === RMI_ERROR.ok
@@ -181,168 +202,160 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
             ? stopped(said(id, AT_PENDANT))
             : refused(said(id, AT_PENDANT));
       // Where it stands is told by a state that was asked for afterwards.
-      moving.outcome = outcome;
-      moving.asOf = polls;
+      this.moving.outcome = outcome;
+      this.moving.asOf = this.polls;
     }
   }
 
-  function lose(sentence: string): void {
-    const told = events;
-    close();
-    told?.lost(sentence);
+  protected release(): void {
+    this.stopPolling?.();
+    this.stopPolling = null;
+    this.stream?.close();
+    this.stream = null;
+    this.polling = this.running = this.paused = false;
+    for (const { answer } of this.asked.splice(0)) answer(null);
   }
-  function close(): void {
-    life++;
-    stopPolling?.();
-    stopPolling = null;
-    stream?.close();
-    stream = null;
-    events = null;
-    polling = running = paused = false;
-    for (const { answer } of asked.splice(0)) answer(null);
-    settle(stopped(closedHere));
-  }
-  function listen(to: ByteStream, mine: number): void {
+
+  listen(to: ByteStream, isMine: () => boolean): void {
     const reader = new RmiReader();
     to.onEnd(({ sentence }) => {
-      if (mine === life) lose(sentence);
+      if (isMine()) this.lose(sentence);
     });
     to.onBytes(bytes => {
-      if (mine !== life) return;
+      if (!isMine()) return;
       const why = reader.push(bytes, packet => {
-        take(packet);
-        return mine === life;
+        this.take(packet);
+        return isMine();
       });
-      if (why) lose(why);
+      if (why) this.lose(why);
     });
   }
 
   /** One state out of the answers of a poll; false when it holds none, null when it is not new. */
-  function understand(status: Fields, angles: Fields): boolean | null {
-    before_deg.set(j_deg);
+  understand(status: Fields, angles: Fields): boolean | null {
+    this.before_deg.set(this.j_deg);
     const tag_ms = rmiNumber(angles, "TimeTag");
     const override = rmiNumber(status, "Override");
-    if (!rmiJoints(angles, j_deg) || Number.isNaN(rmiNumber(status, "ServoReady"))) return false;
-    if (tag_ms === time_ms) return null;
-    time_ms = tag_ms;
-    servos = rmiNumber(status, "ServoReady") === 1;
-    pendant = rmiNumber(status, "TPMode") === 1;
-    running = rmiNumber(status, "RMIMotionStatus") !== 0;
-    if (!moving) next = rmiNumber(status, "NextSequenceID");
-    if (servos && !locked) fault = "";
-    lent.sequence++;
-    lent.time_s = Number.isNaN(tag_ms) ? scheduler.now_s() : tag_ms / 1000;
-    jointsOfAxes(joints!, j_deg, lent.q_rad);
-    lent.mode = pendant ? "manual" : "remote";
-    lent.override = paused ? 0 : Number.isNaN(override) ? lent.override : override / 100;
-    lent.safety = locked ? "emergency-stop" : servos ? "normal" : "protective-stop";
-    lent.message = fault !== "" ? fault : servos ? "" : "The servos are off.";
-    const moved = j_deg.some((value, i) => Math.abs(value - before_deg[i]!) > STANDS_DEG);
-    lent.moving =
-      (moving !== null && !moving.isText && moving.sequence > 0 && !paused && !moving.aborted && !moving.outcome) ||
+    if (!rmiJoints(angles, this.j_deg) || Number.isNaN(rmiNumber(status, "ServoReady"))) return false;
+    if (tag_ms === this.time_ms) return null;
+    this.time_ms = tag_ms;
+    this.servos = rmiNumber(status, "ServoReady") === 1;
+    this.pendant = rmiNumber(status, "TPMode") === 1;
+    this.running = rmiNumber(status, "RMIMotionStatus") !== 0;
+    if (!this.moving) this.next = rmiNumber(status, "NextSequenceID");
+    if (this.servos && !this.locked) this.fault = "";
+    this.lent.sequence++;
+    this.lent.time_s = Number.isNaN(tag_ms) ? this.scheduler.now_s() : tag_ms / 1000;
+    jointsOfAxes(this.joints!, this.j_deg, this.lent.q_rad);
+    this.lent.mode = this.pendant ? "manual" : "remote";
+    this.lent.override = this.paused ? 0 : Number.isNaN(override) ? this.lent.override : override / 100;
+    this.lent.safety = this.locked ? "emergency-stop" : this.servos ? "normal" : "protective-stop";
+    this.lent.message = this.fault !== "" ? this.fault : this.servos ? "" : "The servos are off.";
+    const moved = this.j_deg.some((value, i) => Math.abs(value - this.before_deg[i]!) > STANDS_DEG);
+    this.lent.moving =
+      (this.moving !== null &&
+        !this.moving.isText &&
+        this.moving.sequence > 0 &&
+        !this.paused &&
+        !this.moving.aborted &&
+        !this.moving.outcome) ||
       moved;
-    if (moving?.aborted && !moved) settle(stopped(wasStopped()));
+    if (this.moving?.aborted && !moved) this.settle(stopped(this.wasStopped()));
     return true;
   }
 
-  function poll(mine: number): void {
-    const oldest = asked.find(({ key }) => key === "Command");
-    if (oldest && scheduler.now_s() - oldest.since_s > PATIENCE_S) {
-      lose(`A question was not answered within ${PATIENCE_S} s.`);
+  poll(isMine: () => boolean): void {
+    const oldest = this.asked.find(({ key }) => key === "Command");
+    if (oldest && this.scheduler.now_s() - oldest.since_s > PATIENCE_S) {
+      this.lose(`A question was not answered within ${PATIENCE_S} s.`);
       return;
     }
-    if (polling) return;
-    polling = true;
-    const number = ++polls;
-    for (const signal of inputs)
-      void ask("Command", "FRC_ReadDIN", { PortNumber: Number(signal.slice(3, -1)) }).then(reply => {
-        if (reply) values.set(signal, rmiNumber(reply, "PortValue") === 1 || reply["PortValue"] === "ON");
+    if (this.polling) return;
+    this.polling = true;
+    const number = ++this.polls;
+    for (const signal of this.inputs)
+      void this.ask("Command", "FRC_ReadDIN", { PortNumber: Number(signal.slice(3, -1)) }).then(reply => {
+        if (reply) this.values.set(signal, rmiNumber(reply, "PortValue") === 1 || reply["PortValue"] === "ON");
       });
-    void Promise.all([ask("Command", "FRC_GetStatus"), ask("Command", "FRC_ReadJointAngles", { Group: 1 })]).then(
-      ([status, angles]) => {
-        if (mine !== life) return;
-        polling = false;
-        if (!status || !angles || understand(status, angles) !== true) return;
-        if (!servos && fault === "")
-          void ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
-            if (typeof reply?.["ErrorData"] === "string" && !servos) fault = reply["ErrorData"];
-          });
-        events?.sample(lent);
-        if (moving?.outcome && number > moving.asOf) settle(moving.outcome);
-      },
-    );
+    void Promise.all([
+      this.ask("Command", "FRC_GetStatus"),
+      this.ask("Command", "FRC_ReadJointAngles", { Group: 1 }),
+    ]).then(([status, angles]) => {
+      if (!isMine()) return;
+      this.polling = false;
+      if (!status || !angles || this.understand(status, angles) !== true) return;
+      if (!this.servos && this.fault === "")
+        void this.ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
+          if (typeof reply?.["ErrorData"] === "string" && !this.servos) this.fault = reply["ErrorData"];
+        });
+      this.events?.sample(this.lent);
+      if (this.moving?.outcome && number > this.moving.asOf) this.settle(this.moving.outcome);
+    });
   }
 
-  async function open(to: AdapterEvents): Promise<Opened> {
-    close();
-    const mine = life;
-    const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === life) close();
-      return { kind: "failed", why, again };
-    };
-    if (robot.arm.joints.length !== JOINTS)
+  readonly open = async (to: AdapterEvents): Promise<Opened> => {
+    const isMine = this.connecting();
+    const fail = (why: Refusal, again: boolean): Opened => this.failed(isMine, why, again);
+    if (this.robot.arm.joints.length !== JOINTS)
       return fail(
         refusal(
           "link.other-robot",
-          `${robot.name} has ${robot.arm.joints.length} joints; a FANUC controller was expected to move ${JOINTS}.`,
+          `${this.robot.name} has ${this.robot.arm.joints.length} joints; a FANUC controller was expected to move ${JOINTS}.`,
           "Choose the robot that is there.",
         ),
         false,
       );
-    if (!joints)
+    if (!this.joints)
       return fail(
         refusal(
           "link.joints",
-          `How a FANUC controller shows the joints of ${robot.name} is not known.`,
+          `How a FANUC controller shows the joints of ${this.robot.name} is not known.`,
           "Give its file a vendor section with the driver fanuc.",
         ),
         false,
       );
-    const route = await network.connect({ host, port: options.port ?? RMI_PORT });
+    const route = await this.network.connect({ host: this.host, port: this.options.port ?? RMI_PORT });
     if (route.kind === "refused") return fail(noAnswer(route.sentence), true);
-    if (mine !== life) {
+    if (!isMine()) {
       route.stream.close();
       return fail(closedHere, true);
     }
-    stream = route.stream;
-    listen(route.stream, mine);
-    const reply = await ask("Communication", "FRC_Connect");
+    this.stream = route.stream;
+    this.listen(route.stream, isMine);
+    const reply = await this.ask("Communication", "FRC_Connect");
     const port = reply ? rmiNumber(reply, "PortNumber") : NaN;
     const id = reply ? rmiNumber(reply, "ErrorID") : NaN;
-    if (mine !== life || !reply) return fail(noAnswer("The connection was closed."), true);
+    if (!isMine() || !reply) return fail(noAnswer("The connection was closed."), true);
     if (id !== RMI_ERROR.ok || !(port > 0))
       return fail(said(id, "One client at a time is let in: close the other one."), true);
-    life++;
+    const isHere = this.renewed();
     route.stream.close();
-    const here = life;
-    const connected = await network.connect({ host, port });
+    const connected = await this.network.connect({ host: this.host, port });
     if (connected.kind === "refused") {
-      stream = null;
-      return { kind: "failed", why: noAnswer(connected.sentence), again: true };
+      this.stream = null;
+      return this.failed(isHere, noAnswer(connected.sentence), true);
     }
-    if (here !== life) {
+    if (!isHere()) {
       connected.stream.close();
       return { kind: "failed", why: closedHere, again: true };
     }
-    stream = connected.stream;
-    listen(stream, here);
+    this.stream = connected.stream;
+    this.listen(this.stream, isHere);
     const [status, angles] = await Promise.all([
-      ask("Command", "FRC_GetStatus"),
-      ask("Command", "FRC_ReadJointAngles", { Group: 1 }),
+      this.ask("Command", "FRC_GetStatus"),
+      this.ask("Command", "FRC_ReadJointAngles", { Group: 1 }),
     ]);
-    time_ms = NaN;
-    if (here !== life || !status || !angles || understand(status, angles) !== true) {
-      if (here === life) close();
-      return { kind: "failed", why: noAnswer("The controller does not tell its state."), again: true };
+    this.time_ms = NaN;
+    if (!isHere() || !status || !angles || this.understand(status, angles) !== true) {
+      return this.failed(isHere, noAnswer("The controller does not tell its state."), true);
     }
-    events = to;
-    stopPolling = scheduler.every(period_s, () => {
-      poll(here);
+    this.stopPolling = this.scheduler.every(this.period_s, () => {
+      this.poll(isHere);
     });
-    return { kind: "open" };
-  }
+    return this.ready(to);
+  };
 
-  function cannotSay(order: AdapterOrder): Refusal | null {
+  readonly cannotSay = (order: AdapterOrder): Refusal | null => {
     if (order.kind === "signal")
       return OUTPUT.test(order.signal) && typeof order.value === "boolean"
         ? null
@@ -352,7 +365,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
             "Name it DO[1] and so on.",
           );
     if (order.kind === "gripper")
-      return options.gripperOutput === undefined
+      return this.options.gripperOutput === undefined
         ? refusal("fanuc.gripper", "Which output the gripper hangs on is not given.", "Give the number of its DO.")
         : null;
     return order.path === "arc"
@@ -362,13 +375,14 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
           "Run the program as text of the controller's own language, or use lines.",
         )
       : null;
-  }
-  async function move(motion: AdapterMotion): Promise<CommandOutcome> {
-    const why = cannotSay(motion);
+  };
+
+  readonly move = async (motion: AdapterMotion): Promise<CommandOutcome> => {
+    const why = this.cannotSay(motion);
     if (why) return refused(why);
     const isLine = motion.path !== "joints";
-    const shown = axesOfJoints(joints!, motion.q_rad, new Float64Array(JOINTS));
-    return instruct(
+    const shown = axesOfJoints(this.joints!, motion.q_rad, new Float64Array(JOINTS));
+    return this.instruct(
       isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep",
       {
         JointAngle: jointPart(shown, DIGITS),
@@ -380,53 +394,62 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
       },
       false,
     );
-  }
+  };
+
   /**
    * Appends an instruction to RMI_MOVE, which is started where it does not run, and waits until it has been carried
    * out.
    */
-  async function instruct(name: string, fields: Fields, isText: boolean): Promise<CommandOutcome> {
-    if (!stream) return refused(closedHere);
-    if (!servos)
+  async instruct(name: string, fields: Fields, isText: boolean): Promise<CommandOutcome> {
+    if (!this.stream) return refused(closedHere);
+    if (!this.servos)
       return refused(
         refusal(
           "fanuc.servo-off",
-          fault === "" ? "The servos are off." : `The servos are off: ${fault}.`,
+          this.fault === "" ? "The servos are off." : `The servos are off: ${this.fault}.`,
           "Reset the robot, then command the move again.",
         ),
       );
-    return new Promise(resolve => {
-      const mine: Moving = { resolve, isText, sequence: 0, cancelled: false, aborted: false, outcome: null, asOf: 0 };
-      moving = mine;
+    const make = (resolve: Moving["resolve"]): Moving => ({
+      resolve,
+      isText,
+      sequence: 0,
+      cancelled: false,
+      aborted: false,
+      outcome: null,
+      asOf: 0,
+    });
+    return this.execute(make, mine => {
       void (async () => {
-        if (!running) {
-          const id = await order("FRC_Initialize", { GroupMask: 1 });
-          if (moving !== mine) return;
+        if (!this.running) {
+          const id = await this.order("FRC_Initialize", { GroupMask: 1 });
+          if (this.moving !== mine) return;
           if (id !== RMI_ERROR.ok) {
-            settle(refused(said(id, AT_PENDANT)));
+            this.settle(refused(said(id, AT_PENDANT)));
             return;
           }
-          running = true;
-          next = 1;
+          this.running = true;
+          this.next = 1;
         }
-        if (paused) await order("FRC_Pause");
-        if (moving !== mine) return;
+        if (this.paused) await this.order("FRC_Pause");
+        if (this.moving !== mine) return;
         if (mine.cancelled) {
-          settle(stopped(wasStopped()));
+          this.settle(stopped(this.wasStopped()));
           return;
         }
-        mine.sequence = next++;
-        stream?.send(rmiBytes({ key: "Instruction", name, fields: { SequenceID: mine.sequence, ...fields } }));
+        mine.sequence = this.next++;
+        this.stream?.send(rmiBytes({ key: "Instruction", name, fields: { SequenceID: mine.sequence, ...fields } }));
       })();
     });
   }
+
   /** Puts the listings on the controller; started, the first one is called and runs to its end. */
-  async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
+  readonly handText = async (files: readonly EmittedFile[]): Promise<UploadedProgram> => {
     const listings = files
       .filter(({ name }) => /\.ls$/i.test(name))
       .map(({ text }) => ({ program: programOf(text), text }));
     const [first] = listings;
-    const before = stops;
+    const before = this.stops;
     if (!first || listings.some(({ program }) => program === ""))
       return {
         kind: "refused",
@@ -436,10 +459,15 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
           "Hand over .LS files, the program to be run first.",
         ),
       };
-    if (!stream) return { kind: "refused", why: closedHere };
-    const login = options.login ?? { user: "anonymous", password: "" };
+    if (!this.stream) return { kind: "refused", why: closedHere };
+    const login = this.options.login ?? { user: "anonymous", password: "" };
     const why = await putFiles(
-      { network, scheduler, to: { host, port: options.ftpPort ?? FTP_PORT }, ...login },
+      {
+        network: this.network,
+        scheduler: this.scheduler,
+        to: { host: this.host, port: this.options.ftpPort ?? FTP_PORT },
+        ...login,
+      },
       listings.map(({ program, text }) => ({
         name: `${program}.LS`,
         bytes: Uint8Array.from(text, sign => sign.charCodeAt(0) & 255),
@@ -456,34 +484,39 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
       };
     return {
       kind: "handed",
-      start: () => call(first.program, before),
+      start: () => this.call(first.program, before),
       drop() {
         /* A listing that lies there moves nothing. */
       },
     };
-  }
-  async function call(program: string, before: number): Promise<CommandOutcome> {
-    if (stops !== before) return stopped(wasStopped());
-    const outcome = await instruct("FRC_Call", { ProgramName: program }, true);
-    if (outcome.kind !== "refused" || !stream) return outcome;
-    const reply = await ask("Command", "FRC_ReadError", { Count: 1 });
+  };
+
+  async call(program: string, before: number): Promise<CommandOutcome> {
+    if (this.stops !== before) return stopped(this.wasStopped());
+    const outcome = await this.instruct("FRC_Call", { ProgramName: program }, true);
+    if (outcome.kind !== "refused" || !this.stream) return outcome;
+    const reply = await this.ask("Command", "FRC_ReadError", { Count: 1 });
     const text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
     return text === ""
       ? outcome
       : refused({ ...outcome.why, sentence: `${outcome.why.sentence.replace(/\.$/, "")}: ${text}` });
   }
+}
 
+function fanucAdapterOf(wire: FanucWire): ControllerAdapter {
   return {
     brand: "FANUC",
-    robot,
-    stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
-    open,
-    close,
-    cannotSay,
-    move,
-    handText,
+    robot: wire.robot,
+    stale_s: wire.options.stale_s ?? Math.max(STALE_S, 4 * wire.period_s),
+    open: wire.open,
+    close: () => {
+      wire.close();
+    },
+    cannotSay: wire.cannotSay,
+    move: wire.move,
+    handText: wire.handText,
     async runText(files: readonly EmittedFile[]) {
-      const handed = await handText(files);
+      const handed = await wire.handText(files);
       return handed.kind === "refused" ? handed : handed.start();
     },
     watchdog: {
@@ -492,48 +525,51 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
         "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused.",
     },
     stop(emergency) {
-      if (emergency) locked = true;
-      stops++;
-      if (moving) moving.cancelled = true;
-      void order("FRC_Abort").then(() => {
-        running = false;
+      if (emergency) wire.locked = true;
+      wire.stops++;
+      if (wire.moving) wire.moving.cancelled = true;
+      void wire.order("FRC_Abort").then(() => {
+        wire.running = false;
         // It is over when the robot stands, which the states tell.
-        if (moving) moving.aborted = true;
+        if (wire.moving) wire.moving.aborted = true;
       });
     },
     setOverride(ratio) {
       if (ratio === 0) {
-        paused = true;
-        void order("FRC_Pause");
+        wire.paused = true;
+        void wire.order("FRC_Pause");
         return null;
       }
-      void order("FRC_SetOverRide", { Value: Math.max(1, Math.round(100 * ratio)) });
-      if (paused) {
-        paused = false;
-        void order("FRC_Continue");
+      void wire.order("FRC_SetOverRide", { Value: Math.max(1, Math.round(100 * ratio)) });
+      if (wire.paused) {
+        wire.paused = false;
+        void wire.order("FRC_Continue");
       }
       return null;
     },
     async reset(wanted) {
-      const id = await order("FRC_Reset");
+      const id = await wire.order("FRC_Reset");
       if (id !== RMI_ERROR.ok) return refused(said(id, "Clear the cause at the robot first."));
-      if (!wanted()) return refused(stoppedInReset(robot));
-      locked = false;
-      fault = "";
+      if (!wanted()) return refused(stoppedInReset(wire.robot));
+      wire.locked = false;
+      wire.fault = "";
       return DONE;
     },
     setSignal(signal, value) {
-      const why = cannotSay({ kind: "signal", signal, value });
+      const why = wire.cannotSay({ kind: "signal", signal, value });
       if (why) return why;
-      void order("FRC_WriteDOUT", { PortNumber: Number(OUTPUT.exec(signal)![1]), PortValue: value ? "ON" : "OFF" });
-      values.set(signal, value);
+      void wire.order("FRC_WriteDOUT", {
+        PortNumber: Number(OUTPUT.exec(signal)![1]),
+        PortValue: value ? "ON" : "OFF",
+      });
+      wire.values.set(signal, value);
       return null;
     },
     setGripper(closed) {
-      const why = cannotSay({ kind: "gripper", closed });
+      const why = wire.cannotSay({ kind: "gripper", closed });
       if (why) return why;
-      void order("FRC_WriteDOUT", { PortNumber: options.gripperOutput, PortValue: closed ? "ON" : "OFF" });
-      lent.gripperClosed = closed;
+      void wire.order("FRC_WriteDOUT", { PortNumber: wire.options.gripperOutput, PortValue: closed ? "ON" : "OFF" });
+      wire.lent.gripperClosed = closed;
       return null;
     },
   };

@@ -57,44 +57,78 @@ const FLANGE = identity<"flange", "tcp">();
 const INPUTS = numbered("in");
 const OUTPUTS = numbered("out");
 
-export function urPendant({
-  robot,
-  neutral,
-  mover,
-  states,
-  programs,
-  memory,
-  panel,
-  now_s,
-  setSpeed,
-  protectiveStop,
-}: UrPendantParts): UrPendant {
-  let jogging = false;
-  const turn = (remote: boolean): void => {
-    if (remote !== panel.remote) {
-      panel.remote = remote;
-      programs.end();
+export function urPendant(options: UrPendantParts): UrPendant {
+  return urPendantOf(new TeachPanel(options));
+}
+
+class TeachPanel {
+  readonly robot: Robot;
+  readonly neutral: VirtualController;
+  readonly mover: Mover;
+  readonly states: States;
+  readonly programs: Programs;
+  readonly memory: Memory;
+  readonly panel: Panel;
+  readonly now_s: () => number;
+  readonly setSpeed: (fraction: number) => void;
+  readonly protectiveStop: (because: string) => void;
+  jogging = false;
+
+  constructor({
+    robot,
+    neutral,
+    mover,
+    states,
+    programs,
+    memory,
+    panel,
+    now_s,
+    setSpeed,
+    protectiveStop,
+  }: UrPendantParts) {
+    this.robot = robot;
+    this.neutral = neutral;
+    this.mover = mover;
+    this.states = states;
+    this.programs = programs;
+    this.memory = memory;
+    this.panel = panel;
+    this.now_s = now_s;
+    this.setSpeed = setSpeed;
+    this.protectiveStop = protectiveStop;
+  }
+
+  turn(remote: boolean): void {
+    if (remote !== this.panel.remote) {
+      this.panel.remote = remote;
+      this.programs.end();
     }
+  }
+
+  readonly stopJog = (): void => {
+    if (this.jogging) this.mover.stop();
   };
-  const stopJog = (): void => {
-    if (jogging) mover.stop();
-  };
-  const whyNoJog = (): { readonly code: string; readonly sentence: string; readonly hint: string } | null =>
-    panel.remote
+
+  whyNoJog(): { readonly code: string; readonly sentence: string; readonly hint: string } | null {
+    return this.panel.remote
       ? {
           code: "controller.not-manual",
-          sentence: `${robot.name} is in remote control; its pendant jogs in local control only.`,
+          sentence: `${this.robot.name} is in remote control; its pendant jogs in local control only.`,
           hint: "Switch it to local control.",
         }
-      : !states.mayMove
+      : !this.states.mayMove
         ? {
             code: "controller.not-ready",
-            sentence: `${robot.name} is not ready to move.`,
+            sentence: `${this.robot.name} is not ready to move.`,
             hint: "Power it on and release its brakes.",
           }
-        : !mover.isAtRest
-          ? { code: "controller.busy", sentence: `${robot.name} is still moving.`, hint: "Wait until it stands." }
+        : !this.mover.isAtRest
+          ? { code: "controller.busy", sentence: `${this.robot.name} is still moving.`, hint: "Wait until it stands." }
           : null;
+  }
+}
+
+function urPendantOf(own: TeachPanel): UrPendant {
   return {
     keys: KEYS,
     labels: { servo: "Power and brakes", reset: "Unlock" },
@@ -103,73 +137,73 @@ export function urPendant({
       outputs: OUTPUTS,
       read(signal) {
         const line = lineNumber(signal);
-        return line !== null && memory.digital(line.kind === "digital-in" ? "input" : "output", line.number);
+        return line !== null && own.memory.digital(line.kind === "digital-in" ? "input" : "output", line.number);
       },
     },
     get shown(): PendantShown {
-      const { robotMode, safetyMode, message } = states;
+      const { robotMode, safetyMode, message } = own.states;
       return {
-        key: panel.remote ? "remote" : panel.operational === "AUTOMATIC" ? "automatic" : "manual",
-        override: panel.fraction,
+        key: own.panel.remote ? "remote" : own.panel.operational === "AUTOMATIC" ? "automatic" : "manual",
+        override: own.panel.fraction,
         safety: EMERGENCY_STOPS.has(safetyMode)
           ? "emergency-stop"
           : SAFEGUARD_STOPS.has(safetyMode)
             ? "guard-stop"
-            : states.mayMove || safetyMode === SAFETY_MODE.NORMAL
+            : own.states.mayMove || safetyMode === SAFETY_MODE.NORMAL
               ? "normal"
               : "protective-stop",
-        servo: states.isRunning
+        servo: own.states.isRunning
           ? "on"
           : robotMode === ROBOT_MODE.POWER_ON || robotMode === ROBOT_MODE.IDLE
             ? "coming"
             : "off",
-        program: programs.name,
-        running: programs.runtime === RUNTIME.PLAYING,
+        program: own.programs.name,
+        running: own.programs.runtime === RUNTIME.PLAYING,
         alarms: message === "" ? [] : [message],
       };
     },
     turnKey(position) {
-      if (position !== "remote") panel.operational = position === "automatic" ? "AUTOMATIC" : "MANUAL";
-      turn(position === "remote");
-      if (position !== "manual") stopJog();
+      if (position !== "remote") own.panel.operational = position === "automatic" ? "AUTOMATIC" : "MANUAL";
+      own.turn(position === "remote");
+      if (position !== "manual") own.stopJog();
     },
     setMode(mode) {
-      turn(mode !== "manual");
+      own.turn(mode !== "manual");
     },
     setOperationalMode(mode) {
-      panel.operational = mode;
+      own.panel.operational = mode;
     },
     setEnabling(pressed) {
-      if (!pressed) stopJog();
+      if (!pressed) own.stopJog();
     },
     setServo(on) {
       if (!on) {
-        states.powerOff();
+        own.states.powerOff();
         return null;
       }
-      return states.powerOn(now_s(), ROBOT_MODE.RUNNING)
+      return own.states.powerOn(own.now_s(), ROBOT_MODE.RUNNING)
         ? null
         : "The safety system keeps the power off: turn the red button out first.";
     },
     setOverride(ratio) {
-      setSpeed(ratio);
+      own.setSpeed(ratio);
       return null;
     },
     reset() {
-      if (states.safetyMode === SAFETY_MODE.FAULT || states.safetyMode === SAFETY_MODE.VIOLATION) {
-        states.restartSafety();
+      if (own.states.safetyMode === SAFETY_MODE.FAULT || own.states.safetyMode === SAFETY_MODE.VIOLATION) {
+        own.states.restartSafety();
         return null;
       }
-      const unlocked = states.unlock(now_s());
+      const unlocked = own.states.unlock(own.now_s());
       if (unlocked === "too-soon")
         return `A protective stop can be unlocked ${UNLOCK_AFTER_S} s after it came: look at the robot first.`;
-      return unlocked === "unlocked" || states.message === "" ? null : states.message;
+      return unlocked === "unlocked" || own.states.message === "" ? null : own.states.message;
     },
-    stopJog,
+    stopJog: own.stopJog,
     async jog(q_rad, most = 1) {
-      const why = jointRefusal(robot, q_rad) ?? whyNoJog();
+      const why = jointRefusal(own.robot, q_rad) ?? own.whyNoJog();
       if (why) return { kind: "refused", why };
-      const full_mps = jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE);
+      const full_mps = jointMoveSpeed(own.robot, own.neutral.jointAngles(), q_rad, FLANGE);
       const ratio = Math.min(most, BY_HAND, full_mps > 0 ? BY_HAND_MPS / full_mps : 1);
       const step: MoveStep = {
         id: "",
@@ -179,12 +213,12 @@ export function urPendant({
         speed: { ratio },
         blend_m: 0,
       };
-      const moving = mover.run([step], { tools: {}, frames: {} });
-      jogging = true;
+      const moving = own.mover.run([step], { tools: {}, frames: {} });
+      own.jogging = true;
       return new Promise(resolve => {
-        const done = neutral.onSample(() => {
+        const done = own.neutral.onSample(() => {
           if (!moving.over) return;
-          jogging = false;
+          own.jogging = false;
           done();
           resolve(
             moving.sentence === ""
@@ -197,32 +231,32 @@ export function urPendant({
         });
       });
     },
-    setSpeed,
+    setSpeed: own.setSpeed,
     emergencyStop(pressed) {
-      states.emergencyStop(pressed);
+      own.states.emergencyStop(pressed);
     },
     setGuardOpen(open) {
-      states.safeguard(open);
+      own.states.safeguard(open);
     },
-    protectiveStop,
+    protectiveStop: own.protectiveStop,
     fault(because) {
-      states.fault(because);
+      own.states.fault(because);
     },
     switchOn() {
-      states.powerOn(now_s(), ROBOT_MODE.RUNNING);
+      own.states.powerOn(own.now_s(), ROBOT_MODE.RUNNING);
     },
     switchOff() {
-      states.powerOff();
+      own.states.powerOff();
     },
-    unlock: () => states.unlock(now_s()),
+    unlock: () => own.states.unlock(own.now_s()),
     stopProgram() {
-      programs.end();
+      own.programs.end();
     },
     setInput(signal, value) {
       const line = lineNumber(signal);
       if (line?.kind === "digital-in")
-        memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
-      if (line?.kind === "analogue-in") memory.set(`standard_analog_input${line.number}`, Number(value));
+        own.memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
+      if (line?.kind === "analogue-in") own.memory.set(`standard_analog_input${line.number}`, Number(value));
     },
   };
 }
