@@ -13,3 +13,4 @@ export { recordRemote, type RemoteRecorder } from "./stations/record-remote.ts";
 export { joinHost, joinServer, type Joined, type Told } from "./stations/join.ts";
 export { readConnections, restoreConnections, saveConnection, type SavedConnection } from "./stations/connections.ts";
 export { schedulerWith } from "./api/robots.ts";
+export { jsonLog, textLog, withoutSecrets, type Log } from "./operations/log.ts";
