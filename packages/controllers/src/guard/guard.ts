@@ -110,6 +110,8 @@ export interface Guard {
   follow(path: KnownPath | null): void;
   /** What was safe on the way ahead may not be any more: something is carried now that was not, or the reverse. */
   lookAgain(): void;
+  /** A virtual robot was put where it stands now without moving there: that is no speed, and no way ahead. */
+  jumped(): void;
   /** The cell or the tool is another from now on; what moves is judged by it from its next sample on. */
   setCell(cell: GuardedCell): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
@@ -378,6 +380,12 @@ class GuardedController {
     return true;
   }
 
+  readonly jumped = (): void => {
+    this.forecast.standAt(this.controller.jointAngles());
+    // Speeds of the tool are measured from one sample to the next.
+    this.tcp(this.q_rad, this.tip);
+  };
+
   readonly lookAgain = (): void => {
     this.planned?.forget();
     this.straight?.forget();
@@ -572,6 +580,7 @@ class GuardedController {
                 const why = this.watchedOnly() ?? this.pointRefusal(target_rad) ?? this.send({ type: "ask", who });
                 if (why) return refused(why);
                 const outcome = jumpTo(target_rad);
+                if (outcome.kind === "done") this.jumped();
                 this.send({ type: "ended" });
                 return outcome;
               },
@@ -601,6 +610,7 @@ function guardOf(own: GuardedController): Guard {
       own.planned = path && new PathAhead(path, own.n);
     },
     lookAgain: own.lookAgain,
+    jumped: own.jumped,
     setCell(cell) {
       own.lookAgain();
       ({ isSafe: own.isSafe, contactsAt: own.contactsAt, gripper: own.gripper } = cell);
