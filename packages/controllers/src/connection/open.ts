@@ -405,6 +405,64 @@ class VendorConnectionState {
       this.clear?.end();
     }
   }
+
+  async run(
+    commander: Commander,
+    program: Program,
+    asText: boolean,
+    despite: readonly string[],
+  ): Promise<CommandOutcome> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return refused(unsaid);
+    const before = this.stops;
+    const answer = await this.jobOf(program, asText);
+    if (answer.kind === "refused") return answer;
+    if (this.stops !== before) return refused(stoppedMeanwhile(this.name));
+    // What cannot be planned cannot be checked: it is not sent to find out where it ends.
+    if (answer.stuck) return refused(answer.stuck);
+    const blocked = this.blockedBy(answer.job, despite, false);
+    return blocked ? refused(blocked) : this.carrying(answer.job, () => this.station.carryOut(commander, answer.job));
+  }
+
+  async preview(program: Program): Promise<CommandOutcome> {
+    const unsaid = this.unsayable(program, true);
+    if (unsaid) return refused(unsaid);
+    const answer = await this.jobOf(program, false);
+    if (answer.kind === "refused") return answer;
+    const {
+      job: { plan, findings = [], bad = [] },
+      stuck,
+    } = answer;
+    if (!plan) return refused(stuck!);
+    const { blocked, told } = this.station.ahead.preview(plan, findings, bad);
+    const first = blocked ?? told;
+    return first
+      ? refused({
+          ...pathBlocked(first),
+          hint: blocked
+            ? "It would not be sent. Clear the way, or change the program."
+            : "It would be sent all the same; this is only told.",
+        })
+      : DONE;
+  }
+
+  async prepare(
+    commander: Commander,
+    program: Program,
+    asText: boolean,
+    despite: readonly string[],
+  ): Promise<PreparedRun> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return { kind: "refused", why: unsaid };
+    const before = this.stops;
+    const answer = await this.jobOf(program, asText);
+    if (answer.kind === "refused") return answer;
+    if (this.stops !== before) return { kind: "refused", why: stoppedMeanwhile(this.name) };
+    const why = answer.stuck ?? this.blockedBy(answer.job, despite, true);
+    if (why) return { kind: "refused", why };
+    const armed = await this.station.arm(commander, answer.job);
+    return armed.kind === "armed" ? { ...armed, start: () => this.carrying(answer.job, () => armed.start()) } : armed;
+  }
 }
 
 function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
@@ -461,55 +519,13 @@ function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
       const rejoined = await rejoin(own.station);
       return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
     },
-    async run(commander, program, asText, despite = []) {
-      const unsaid = own.unsayable(program, asText);
-      if (unsaid) return refused(unsaid);
-      const before = own.stops;
-      const answer = await own.jobOf(program, asText);
-      if (answer.kind === "refused") return answer;
-      if (own.stops !== before) return refused(stoppedMeanwhile(own.name));
-      // What cannot be planned cannot be checked: it is not sent to find out where it ends.
-      if (answer.stuck) return refused(answer.stuck);
-      const blocked = own.blockedBy(answer.job, despite, false);
-      return blocked ? refused(blocked) : own.carrying(answer.job, () => own.station.carryOut(commander, answer.job));
-    },
+    run: (commander, program, asText, despite = []) => own.run(commander, program, asText, despite),
     takes(program) {
       const why = own.unsayable(program, false);
       return why ? refused(why) : DONE;
     },
-    async preview(program) {
-      const unsaid = own.unsayable(program, true);
-      if (unsaid) return refused(unsaid);
-      const answer = await own.jobOf(program, false);
-      if (answer.kind === "refused") return answer;
-      const {
-        job: { plan, findings = [], bad = [] },
-        stuck,
-      } = answer;
-      if (!plan) return refused(stuck!);
-      const { blocked, told } = own.station.ahead.preview(plan, findings, bad);
-      const first = blocked ?? told;
-      return first
-        ? refused({
-            ...pathBlocked(first),
-            hint: blocked
-              ? "It would not be sent. Clear the way, or change the program."
-              : "It would be sent all the same; this is only told.",
-          })
-        : DONE;
-    },
-    async prepare(commander, program, asText, despite = []) {
-      const unsaid = own.unsayable(program, asText);
-      if (unsaid) return { kind: "refused", why: unsaid };
-      const before = own.stops;
-      const answer = await own.jobOf(program, asText);
-      if (answer.kind === "refused") return answer;
-      if (own.stops !== before) return { kind: "refused", why: stoppedMeanwhile(own.name) };
-      const why = answer.stuck ?? own.blockedBy(answer.job, despite, true);
-      if (why) return { kind: "refused", why };
-      const armed = await own.station.arm(commander, answer.job);
-      return armed.kind === "armed" ? { ...armed, start: () => own.carrying(answer.job, () => armed.start()) } : armed;
-    },
+    preview: program => own.preview(program),
+    prepare: (commander, program, asText, despite = []) => own.prepare(commander, program, asText, despite),
     close(then) {
       own.station.close(() => {
         own.unnotice();

@@ -158,6 +158,9 @@ function virtualPendantOf(
   return servedPendantOf(new ServedPendantState(brand, host, virtual, outside, scheduler));
 }
 
+/** Acts at the pendant itself. */
+type AtThePendant = "mode" | "key" | "enable" | "jog" | "servo" | "override" | "reset" | "emergency-stop";
+
 class ServedPendantState {
   readonly brand: DriverKind;
   readonly host: string;
@@ -302,6 +305,85 @@ class ServedPendantState {
     return why === null ? DONE : refuse("cabinet.refused", why, "");
   }
 
+  async act(who: string, act: VirtualPendantAction): Promise<CommandOutcome> {
+    if (act.do !== "enable") this.says = "";
+    switch (act.do) {
+      case "mode":
+        this.endJog();
+        this.pendant.setMode(act.mode);
+        return DONE;
+      case "key":
+        if (!this.pendant.keys.some(({ id }) => id === act.position))
+          return refuse(
+            "cabinet.no-position",
+            `The key has no position “${act.position}”.`,
+            `It has: ${this.pendant.keys.map(({ id }) => id).join(", ")}.`,
+          );
+        this.endJog();
+        this.pendant.turnKey(act.position);
+        return DONE;
+      case "enable":
+        if (act.pressed) {
+          this.says = "";
+          this.hold(who);
+        } else this.letGo(who);
+        return DONE;
+      case "jog":
+        return this.press(who, act.joint, act.direction);
+      case "servo":
+        return this.said(this.pendant.setServo(act.on));
+      case "override":
+        if (!(act.percent >= 0 && act.percent <= 100))
+          return refuse(
+            "controller.override",
+            `An override of ${act.percent} % is not between 0 and 100 %.`,
+            "Choose one between.",
+          );
+        return this.said(this.pendant.setOverride(act.percent / 100));
+      case "reset":
+        return this.said(this.pendant.reset());
+      case "emergency-stop":
+        this.pressed = act.pressed;
+        if (this.pressed) this.endJog();
+        this.pendant.emergencyStop(this.pressed);
+        return DONE;
+      default:
+        return this.beside(act);
+    }
+  }
+
+  /** What is done at the cabinet and around the robot, not at the pendant. */
+  private beside(act: Exclude<VirtualPendantAction, { readonly do: AtThePendant }>): CommandOutcome {
+    switch (act.do) {
+      case "guard":
+        this.gateOpen = act.open;
+        this.guard();
+        return DONE;
+      case "near":
+        this.near = act.somebody;
+        this.guard();
+        return DONE;
+      case "protective-stop":
+        this.pendant.protectiveStop(act.because);
+        return DONE;
+      case "input":
+        this.pendant.setInput(act.signal, act.value);
+        return DONE;
+      case "trouble": {
+        const { trouble: problem } = this.outside;
+        problem.delay_s = act.delay_s ?? problem.delay_s;
+        problem.loss = act.loss ?? problem.loss;
+        problem.hangs = act.hangs ?? problem.hangs;
+        problem.unplugged = act.unplugged ?? problem.unplugged;
+        return DONE;
+      }
+      case "reboot":
+        this.endJog();
+        this.virtual.reboot();
+        return DONE;
+    }
+  }
+
   guard(): void {
     this.pendant.setGuardOpen(this.gateOpen || this.near);
   }
@@ -353,76 +435,7 @@ function servedPendantOf(own: ServedPendantState): { readonly cabinet: VirtualPe
         if (own.holding.has(who)) own.holding.set(who, own.scheduler.now_s());
       },
       leave: own.letGo,
-      async act(who, act) {
-        if (act.do !== "enable") own.says = "";
-        switch (act.do) {
-          case "mode":
-            own.endJog();
-            own.pendant.setMode(act.mode);
-            return DONE;
-          case "key":
-            if (!own.pendant.keys.some(({ id }) => id === act.position))
-              return refuse(
-                "cabinet.no-position",
-                `The key has no position “${act.position}”.`,
-                `It has: ${own.pendant.keys.map(({ id }) => id).join(", ")}.`,
-              );
-            own.endJog();
-            own.pendant.turnKey(act.position);
-            return DONE;
-          case "enable":
-            if (act.pressed) {
-              own.says = "";
-              own.hold(who);
-            } else own.letGo(who);
-            return DONE;
-          case "jog":
-            return own.press(who, act.joint, act.direction);
-          case "servo":
-            return own.said(own.pendant.setServo(act.on));
-          case "override":
-            if (!(act.percent >= 0 && act.percent <= 100))
-              return refuse(
-                "controller.override",
-                `An override of ${act.percent} % is not between 0 and 100 %.`,
-                "Choose one between.",
-              );
-            return own.said(own.pendant.setOverride(act.percent / 100));
-          case "reset":
-            return own.said(own.pendant.reset());
-          case "emergency-stop":
-            own.pressed = act.pressed;
-            if (own.pressed) own.endJog();
-            own.pendant.emergencyStop(own.pressed);
-            return DONE;
-          case "guard":
-            own.gateOpen = act.open;
-            own.guard();
-            return DONE;
-          case "near":
-            own.near = act.somebody;
-            own.guard();
-            return DONE;
-          case "protective-stop":
-            own.pendant.protectiveStop(act.because);
-            return DONE;
-          case "input":
-            own.pendant.setInput(act.signal, act.value);
-            return DONE;
-          case "trouble": {
-            const { trouble: problem } = own.outside;
-            problem.delay_s = act.delay_s ?? problem.delay_s;
-            problem.loss = act.loss ?? problem.loss;
-            problem.hangs = act.hangs ?? problem.hangs;
-            problem.unplugged = act.unplugged ?? problem.unplugged;
-            return DONE;
-          }
-          case "reboot":
-            own.endJog();
-            own.virtual.reboot();
-            return DONE;
-        }
-      },
+      act: (who, act) => own.act(who, act),
     },
   };
 }

@@ -286,7 +286,6 @@ class RealControllerState {
 }
 
 function realControllerOf(own: RealControllerState): RealController {
-  const { runText, handText } = own.adapter;
   return {
     kind: "real",
     name: own.name,
@@ -362,6 +361,14 @@ function realControllerOf(own: RealControllerState): RealController {
       });
       return own.resetting;
     },
+    ...textCommandsOf(own),
+  };
+}
+
+/** What only drivers have whose protocol takes program texts. */
+function textCommandsOf(own: RealControllerState): Pick<RealController, "runText" | "handText"> {
+  const { runText, handText } = own.adapter;
+  return {
     ...(runText
       ? {
           async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {

@@ -486,7 +486,6 @@ class GuardedController {
     this.send({ type: "stop", emergency });
   }
   readonly seat = (who: string): Commander => {
-    const { jumpTo } = this;
     return {
       name: who,
       acquireLease: () => {
@@ -517,78 +516,84 @@ class GuardedController {
       alive: () => {
         if (this.state.holder === who) this.alive_s = this.scheduler.now_s();
       },
-      robot: {
-        kind: this.controller.kind,
-        name: this.controller.name,
-        robot: this.robot,
-        ...(this.controller.signals === undefined ? {} : { signals: this.linesOf(this.controller.signals) }),
-        onSample: listen => this.controller.onSample(listen),
-        close: () => {
-          this.act({ type: "release", who });
-        },
-        isMoving: () => this.controller.isMoving(),
-        jointAngle: joint => this.controller.jointAngle(joint),
-        jointAngles: out => this.controller.jointAngles(out),
-        setSpeed: to => {
-          const why =
-            percentRefusal(to) ??
-            this.watchedOnly() ??
-            (this.state.holder === who
-              ? null
-              : denialRefusal(
-                  this.state.holder === null ? "no-lease" : "lease-taken",
-                  this.robot.name,
-                  this.state.holder,
-                ));
-          if (why) return refused(why);
-          this.percent = to;
-          return this.applySpeed();
-        },
-        moveJoint: async (joint, angle_rad) => {
-          const why = jointNumberRefusal(this.robot, joint);
-          if (why) return refused(why);
-          const target_rad = this.controller.jointAngles();
-          target_rad[joint - 1] = angle_rad;
-          return this.command(who, target_rad, () => this.controller.moveJoint(joint, angle_rad));
-        },
-        moveJoints: target_rad => {
-          const target = Float64Array.from(target_rad);
-          return this.command(who, target, () => this.controller.moveJoints(target));
-        },
-        moveToPose: baseFromFlange => this.command(who, null, () => this.controller.moveToPose(baseFromFlange)),
-        moveToZero: () => this.command(who, new Float64Array(this.n), () => this.controller.moveToZero()),
-        run: (steps, context) => this.command(who, null, () => this.controller.run(steps, context)),
-        cannotCarryOut: step => this.controller.cannotCarryOut(step),
-        stop: emergency => {
-          this.halt(emergency ?? false);
-        },
-        reset: async () => {
-          const watched = this.watchedOnly();
-          if (watched) return refused(watched);
-          // Whether it may is asked before the controller is told: its drives would be on already.
-          const { denied } = guardStep(this.state, { type: "reset", who }, this.rules);
-          if (denied) return refused(denialRefusal(denied, this.robot.name, this.state.holder));
-          const before = this.stops;
-          const outcome = await this.controller.reset();
-          if (outcome.kind !== "done") return outcome;
-          // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
-          return before === this.stops ? this.act({ type: "reset", who }) : refused(stoppedInReset(this.robot));
-        },
-        ...(jumpTo
-          ? {
-              jumpTo: (target_rad: ArrayLike<number>): CommandOutcome => {
-                const why = this.watchedOnly() ?? this.pointRefusal(target_rad) ?? this.send({ type: "ask", who });
-                if (why) return refused(why);
-                const outcome = jumpTo(target_rad);
-                if (outcome.kind === "done") this.jumped();
-                this.send({ type: "ended" });
-                return outcome;
-              },
-            }
-          : {}),
-      },
+      robot: this.robotOf(who),
     };
   };
+
+  /** The controller as one who commands it sees it. */
+  private robotOf(who: string): RobotController {
+    const { jumpTo } = this;
+    return {
+      kind: this.controller.kind,
+      name: this.controller.name,
+      robot: this.robot,
+      ...(this.controller.signals === undefined ? {} : { signals: this.linesOf(this.controller.signals) }),
+      onSample: listen => this.controller.onSample(listen),
+      close: () => {
+        this.act({ type: "release", who });
+      },
+      isMoving: () => this.controller.isMoving(),
+      jointAngle: joint => this.controller.jointAngle(joint),
+      jointAngles: out => this.controller.jointAngles(out),
+      setSpeed: to => {
+        const why =
+          percentRefusal(to) ??
+          this.watchedOnly() ??
+          (this.state.holder === who
+            ? null
+            : denialRefusal(
+                this.state.holder === null ? "no-lease" : "lease-taken",
+                this.robot.name,
+                this.state.holder,
+              ));
+        if (why) return refused(why);
+        this.percent = to;
+        return this.applySpeed();
+      },
+      moveJoint: async (joint, angle_rad) => {
+        const why = jointNumberRefusal(this.robot, joint);
+        if (why) return refused(why);
+        const target_rad = this.controller.jointAngles();
+        target_rad[joint - 1] = angle_rad;
+        return this.command(who, target_rad, () => this.controller.moveJoint(joint, angle_rad));
+      },
+      moveJoints: target_rad => {
+        const target = Float64Array.from(target_rad);
+        return this.command(who, target, () => this.controller.moveJoints(target));
+      },
+      moveToPose: baseFromFlange => this.command(who, null, () => this.controller.moveToPose(baseFromFlange)),
+      moveToZero: () => this.command(who, new Float64Array(this.n), () => this.controller.moveToZero()),
+      run: (steps, context) => this.command(who, null, () => this.controller.run(steps, context)),
+      cannotCarryOut: step => this.controller.cannotCarryOut(step),
+      stop: emergency => {
+        this.halt(emergency ?? false);
+      },
+      reset: async () => {
+        const watched = this.watchedOnly();
+        if (watched) return refused(watched);
+        // Whether it may is asked before the controller is told: its drives would be on already.
+        const { denied } = guardStep(this.state, { type: "reset", who }, this.rules);
+        if (denied) return refused(denialRefusal(denied, this.robot.name, this.state.holder));
+        const before = this.stops;
+        const outcome = await this.controller.reset();
+        if (outcome.kind !== "done") return outcome;
+        // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
+        return before === this.stops ? this.act({ type: "reset", who }) : refused(stoppedInReset(this.robot));
+      },
+      ...(jumpTo
+        ? {
+            jumpTo: (target_rad: ArrayLike<number>): CommandOutcome => {
+              const why = this.watchedOnly() ?? this.pointRefusal(target_rad) ?? this.send({ type: "ask", who });
+              if (why) return refused(why);
+              const outcome = jumpTo(target_rad);
+              if (outcome.kind === "done") this.jumped();
+              this.send({ type: "ended" });
+              return outcome;
+            },
+          }
+        : {}),
+    };
+  }
 }
 
 function guardOf(own: GuardedController): Guard {

@@ -153,9 +153,7 @@ class MemoryNetworkState {
     let unheardBytes = 0;
     let waiting = 0;
     let broken = false;
-    let over: () => void = () => {
-      /* Nobody asked yet. */
-    };
+    let over: () => void = () => undefined;
     let other: { readonly arrive: (bytes: Uint8Array) => void; readonly end: (ending: Ending) => void } | null = null;
     const arrive = (bytes: Uint8Array): void => {
       if (ending) return;
@@ -175,6 +173,9 @@ class MemoryNetworkState {
       ending = how;
       endHeard?.(how);
       over();
+    };
+    const endThere = (): void => {
+      other?.end({ sentence: "The other side closed the connection.", byPeer: true });
     };
     const stream: ByteStream = {
       peer,
@@ -219,15 +220,7 @@ class MemoryNetworkState {
         if (ending) return;
         ending = { sentence: "The connection was closed here.", byPeer: false };
         over();
-        if (!broken)
-          this.post(
-            0,
-            () => {
-              other?.end({ sentence: "The other side closed the connection.", byPeer: true });
-            },
-            line,
-            towards,
-          );
+        if (!broken) this.post(0, endThere, line, towards);
       },
     };
     return {

@@ -367,47 +367,51 @@ function virtualControllerOf(arm: VirtualArm): VirtualController {
       arm.q_rad.set(Float64Array.from(target_rad));
       return DONE;
     },
-    atTheRobot: {
-      reset: arm.resetHere,
-      setMode(to) {
-        if (to === arm.mode) return;
-        arm.mode = to;
-        arm.brake("normal", stopped("controller.mode-changed", `${arm.robot.name} was switched to ${to} mode.`));
-      },
-      jog: (target_rad, ratio = 1) =>
-        arm.moveRobotJoints(
-          target_rad,
-          () =>
-            arm.mode === "manual"
-              ? arm.unfit()
-              : {
-                  code: "controller.not-manual",
-                  sentence: `${arm.robot.name} is in ${arm.mode} mode; its pendant jogs in manual mode only.`,
-                  hint: "Turn the mode switch to manual.",
-                },
-          ratio,
-        ),
-      setOverride(percent) {
-        const reason = percentRefusal(percent);
-        if (reason) return arm.refuse(reason);
-        arm.override = percent / 100;
-        return DONE;
-      },
-      setGuardOpen(open) {
-        arm.guardIsOpen = open;
-        if (open && arm.safety === "normal") arm.brake("guard-stop", guardOpen(arm.robot));
-        if (!open && arm.safety === "guard-stop") {
-          arm.safety = "normal";
-          arm.why = null;
-          arm.message = "";
-        }
-      },
-      setInput(signal, value) {
-        arm.signals.write(signal, value);
-      },
-      protectiveStop(because) {
-        if (arm.safety !== "emergency-stop") arm.brake("protective-stop", protective(because));
-      },
+    atTheRobot: atTheRobotOf(arm),
+  };
+}
+
+function atTheRobotOf(arm: VirtualArm): AtTheRobot {
+  return {
+    reset: arm.resetHere,
+    setMode(to) {
+      if (to === arm.mode) return;
+      arm.mode = to;
+      arm.brake("normal", stopped("controller.mode-changed", `${arm.robot.name} was switched to ${to} mode.`));
+    },
+    jog: (target_rad, ratio = 1) =>
+      arm.moveRobotJoints(
+        target_rad,
+        () =>
+          arm.mode === "manual"
+            ? arm.unfit()
+            : {
+                code: "controller.not-manual",
+                sentence: `${arm.robot.name} is in ${arm.mode} mode; its pendant jogs in manual mode only.`,
+                hint: "Turn the mode switch to manual.",
+              },
+        ratio,
+      ),
+    setOverride(percent) {
+      const reason = percentRefusal(percent);
+      if (reason) return arm.refuse(reason);
+      arm.override = percent / 100;
+      return DONE;
+    },
+    setGuardOpen(open) {
+      arm.guardIsOpen = open;
+      if (open && arm.safety === "normal") arm.brake("guard-stop", guardOpen(arm.robot));
+      if (!open && arm.safety === "guard-stop") {
+        arm.safety = "normal";
+        arm.why = null;
+        arm.message = "";
+      }
+    },
+    setInput(signal, value) {
+      arm.signals.write(signal, value);
+    },
+    protectiveStop(because) {
+      if (arm.safety !== "emergency-stop") arm.brake("protective-stop", protective(because));
     },
   };
 }

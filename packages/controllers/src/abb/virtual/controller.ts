@@ -98,7 +98,6 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   return bound.kind === "taken" ? bound : openAbb(options, bound.socket);
 }
 
-// TODO early return in setup
 function openAbb(options: VirtualAbbOptions, socket: DatagramSocket): Promise<AbbStart> {
   return new AbbControllerState(options, socket).open();
 }

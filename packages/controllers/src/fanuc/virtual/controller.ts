@@ -110,7 +110,6 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     : openFanuc(options, joints);
 }
 
-// TODO early return in setup
 function openFanuc(options: VirtualFanucOptions, joints: AxisCounting): Promise<FanucStarted> {
   return new FanucControllerState(options, joints).open();
 }

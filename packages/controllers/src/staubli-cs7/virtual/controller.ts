@@ -83,7 +83,6 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
     : openCs7(options, joints);
 }
 
-// TODO early return in setup
 function openCs7(options: VirtualCs7Options, joints: VendorSection): Promise<Cs7Started> {
   return new Cs7ControllerState(options, joints).open();
 }

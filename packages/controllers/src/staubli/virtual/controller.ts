@@ -104,7 +104,6 @@ export async function createVirtualStaubli(options: VirtualStaubliOptions): Prom
     : { kind: "taken", sentence: `${name} has ${arm.joints.length} joints; ros_server moves ${JOINTS}.` };
 }
 
-// TODO early return in setup
 function openStaubli(options: VirtualStaubliOptions): Promise<StaubliStarted> {
   return new StaubliControllerState(options).open();
 }
@@ -293,80 +292,7 @@ function startedStaubli(own: StaubliControllerState): StaubliStarted {
       get line() {
         return own.stack.line;
       },
-      pendant: {
-        setMode(mode) {
-          own.machine.setMode(mode);
-        },
-        setEnabling(pressed) {
-          own.machine.setEnabling(pressed);
-        },
-        acknowledge() {
-          own.machine.acknowledge();
-        },
-        setPower(on) {
-          if (!on) own.machine.disablePower();
-          return on ? own.machine.enablePower() : null;
-        },
-        setHold(on) {
-          own.machine.setHold(on);
-        },
-        setMonitorSpeed: percent => own.machine.setMonitorSpeed(percent),
-        setEmergencyStop(pressed) {
-          own.machine.setEmergency(pressed);
-        },
-        setDoorOpen(open) {
-          own.machine.setDoor(open);
-        },
-        fail(because) {
-          own.machine.fail(because);
-        },
-        setInput(signal, value) {
-          own.arm.signals.write(signal, value);
-        },
-        async jog(q_rad, ratio = 1) {
-          if (own.machine.mode !== "manual" || !own.machine.moves)
-            return {
-              kind: "refused",
-              why: {
-                code: "controller.not-manual",
-                sentence:
-                  own.machine.mode === "manual"
-                    ? "The enabling switch is not pressed."
-                    : `The mode is ${own.machine.mode}; the arm is jogged in manual mode.`,
-                hint: "Turn the mode selector to manual and press the enabling switch.",
-              },
-            };
-          const step: MoveStep = {
-            id: "jog",
-            type: "move",
-            path: "ptp",
-            target: { q: Array.from(q_rad) },
-            speed: { ratio },
-            blend_m: 0,
-          };
-          return own.arm.run([slowed(own.robot, step, own.arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
-        },
-        load(text) {
-          const read = own.options.interpret(text);
-          if (read.kind === "not-understood") {
-            const [fault] = read.faults;
-            return `Line ${fault?.line ?? 1}: ${fault?.sentence ?? "The text was not understood."}`;
-          }
-          own.loaded = read;
-          return null;
-        },
-        start() {
-          if (!own.loaded) return Promise.resolve("No program is loaded.");
-          const { context } = own.loaded;
-          const run = new TextRun(own.loaded.run(own.arm.signals));
-          return new Promise(over => {
-            own.stack.start({ run, context, over });
-          });
-        },
-        stop() {
-          own.stack.reset();
-        },
-      },
+      pendant: pendantOf(own),
       reboot() {
         own.motion.cut();
         own.feedback.cut();
@@ -385,6 +311,83 @@ function startedStaubli(own: StaubliControllerState): StaubliStarted {
         own.feedback.close();
         own.arm.close();
       },
+    },
+  };
+}
+
+function pendantOf(own: StaubliControllerState): StaubliPendant {
+  return {
+    setMode(mode) {
+      own.machine.setMode(mode);
+    },
+    setEnabling(pressed) {
+      own.machine.setEnabling(pressed);
+    },
+    acknowledge() {
+      own.machine.acknowledge();
+    },
+    setPower(on) {
+      if (!on) own.machine.disablePower();
+      return on ? own.machine.enablePower() : null;
+    },
+    setHold(on) {
+      own.machine.setHold(on);
+    },
+    setMonitorSpeed: percent => own.machine.setMonitorSpeed(percent),
+    setEmergencyStop(pressed) {
+      own.machine.setEmergency(pressed);
+    },
+    setDoorOpen(open) {
+      own.machine.setDoor(open);
+    },
+    fail(because) {
+      own.machine.fail(because);
+    },
+    setInput(signal, value) {
+      own.arm.signals.write(signal, value);
+    },
+    async jog(q_rad, ratio = 1) {
+      if (own.machine.mode !== "manual" || !own.machine.moves)
+        return {
+          kind: "refused",
+          why: {
+            code: "controller.not-manual",
+            sentence:
+              own.machine.mode === "manual"
+                ? "The enabling switch is not pressed."
+                : `The mode is ${own.machine.mode}; the arm is jogged in manual mode.`,
+            hint: "Turn the mode selector to manual and press the enabling switch.",
+          },
+        };
+      const step: MoveStep = {
+        id: "jog",
+        type: "move",
+        path: "ptp",
+        target: { q: Array.from(q_rad) },
+        speed: { ratio },
+        blend_m: 0,
+      };
+      return own.arm.run([slowed(own.robot, step, own.arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
+    },
+    load(text) {
+      const read = own.options.interpret(text);
+      if (read.kind === "not-understood") {
+        const [fault] = read.faults;
+        return `Line ${fault?.line ?? 1}: ${fault?.sentence ?? "The text was not understood."}`;
+      }
+      own.loaded = read;
+      return null;
+    },
+    start() {
+      if (!own.loaded) return Promise.resolve("No program is loaded.");
+      const { context } = own.loaded;
+      const run = new TextRun(own.loaded.run(own.arm.signals));
+      return new Promise(over => {
+        own.stack.start({ run, context, over });
+      });
+    },
+    stop() {
+      own.stack.reset();
     },
   };
 }

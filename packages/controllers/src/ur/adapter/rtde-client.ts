@@ -49,7 +49,6 @@ const PATIENCE_S = 2;
 const named = (table: ReadonlyMap<string, Field>, names: readonly string[]): Field[] =>
   names.flatMap(name => table.get(name) ?? []);
 
-// TODO early return in setup
 /** Sets up protocol 2 with these outputs and groups of inputs, and starts. The stream is this client's from here on. */
 export function openRtde(
   stream: ByteStream,

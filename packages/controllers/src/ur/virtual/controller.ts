@@ -1,4 +1,4 @@
-import type { Pose, JointLimits, Robot, Scheduler } from "@twincell/core";
+import type { Pose, JointLimits, Robot, Scheduler, JointSample } from "@twincell/core";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
 import type { StartedDriver, VendorVirtual, VendorVirtualOptions } from "../../driver/index.ts";
@@ -26,7 +26,7 @@ import { Mover } from "./mover.ts";
 import { urPendant, type Panel, type UrPendant } from "./pendant.ts";
 import { Programs } from "./programs.ts";
 import { RtdeServer } from "./rtde-server.ts";
-import { ScriptServer } from "./script-server.ts";
+import { ScriptServer, type ScriptServerOptions } from "./script-server.ts";
 import { stateFiller } from "./state-filler.ts";
 import { States } from "./states.ts";
 
@@ -102,7 +102,6 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
       };
 }
 
-// TODO early return in setup
 function openUr(options: VirtualUrOptions): Promise<UrStarted> {
   return new UrControllerState(options).open();
 }
@@ -195,7 +194,61 @@ class UrControllerState {
     this.booted_s = this.options.booted_s ?? DEFAULTS.booted_s;
     this.panel = { remote: this.options.remote ?? true, operational: "NONE", fraction: 1 };
     this.outbox = new Outbox(this.faults, () => this.scheduler.now_s());
-    this.states = new States({
+    this.states = this.makeStates();
+    this.programs = this.makePrograms();
+    this.model = this.options.model ?? modelOf(this.robot);
+    this.common = { outbox: this.outbox, log: this.log };
+    this.rtde = new RtdeServer({
+      ...this.common,
+      memory: this.memory,
+      version: this.version,
+      cycle_s: CYCLE_S,
+      now_s: this.now_s,
+      onInputs: this.onInputs,
+    });
+    this.dashboard = this.makeDashboard();
+    this.joints = this.robot.arm.joints.map(({ limits }) => limits);
+    this.arm = {
+      lower_rad: this.joints.map(limits => limits.lower_rad),
+      upper_rad: this.joints.map(limits => limits.upper_rad),
+      speed_rad_s: this.joints.map(limits => limits.speed_rad_s),
+      acceleration_rad_s2: this.joints.map(limits => limits.acceleration_rad_s2),
+      type: typeOf(this.model),
+    };
+    this.slotTcp = this.memory.slotOf("actual_TCP_pose");
+    this.slotOffset = this.memory.slotOf("tcp_offset");
+    const { greeting, onScript } = this;
+    const script = (name: string, way: Pick<ScriptServerOptions, "greeting" | "onScript">): ScriptServer =>
+      new ScriptServer({ ...this.common, name, ...way });
+    this.primary = script("Primary interface", { greeting, onScript });
+    this.secondary = script("Secondary interface", { greeting, onScript });
+    this.realTime = script("Real-time interface", { greeting: () => [], onScript });
+    this.primaryCopy = script("Primary interface, read-only", { greeting });
+    this.secondaryCopy = script("Secondary interface, read-only", { greeting });
+    this.realTimeCopy = script("Real-time interface, read-only", { greeting: () => [] });
+    this.packageTellers = [this.primary, this.secondary, this.primaryCopy, this.secondaryCopy];
+    this.streams = [this.realTime, this.realTimeCopy];
+    this.fill = stateFiller(this.robot, this.memory, this.mover, this.states, this.programs);
+    this.states.begin(this.options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
+    this.neutral.onSample(sample => {
+      this.cycle(sample);
+    });
+    this.wanted = { ...UR_PORTS, ...this.options.ports };
+    this.servers = {
+      dashboard: this.dashboard,
+      primary: this.primary,
+      secondary: this.secondary,
+      realTime: this.realTime,
+      rtde: this.rtde,
+      primaryCopy: this.primaryCopy,
+      secondaryCopy: this.secondaryCopy,
+      realTimeCopy: this.realTimeCopy,
+    };
+    this.ports = { ...this.wanted };
+  }
+
+  private makeStates(): States {
+    return new States({
       powerOn_s: this.options.powerOn_s ?? DEFAULTS.powerOn_s,
       brakes_s: this.options.brakes_s ?? DEFAULTS.brakes_s,
       onStop: (how, because) => {
@@ -210,7 +263,10 @@ class UrControllerState {
         this.tell(safetyModeMessage(this.time_us(), mode));
       },
     });
-    this.programs = new Programs({
+  }
+
+  private makePrograms(): Programs {
+    return new Programs({
       mover: this.mover,
       lines: this.lines,
       interpret: this.options.interpret,
@@ -233,17 +289,10 @@ class UrControllerState {
         this.tell(keyMessage(this.time_us(), "PROGRAM_XXX_STOPPED", name));
       },
     });
-    this.model = this.options.model ?? modelOf(this.robot);
-    this.common = { outbox: this.outbox, log: this.log };
-    this.rtde = new RtdeServer({
-      ...this.common,
-      memory: this.memory,
-      version: this.version,
-      cycle_s: CYCLE_S,
-      now_s: this.now_s,
-      onInputs: this.onInputs,
-    });
-    this.dashboard = new DashboardServer({
+  }
+
+  private makeDashboard(): DashboardServer {
+    return new DashboardServer({
       ...this.common,
       states: this.states,
       programs: this.programs,
@@ -258,95 +307,38 @@ class UrControllerState {
       },
       file: name => this.options.files?.get(name),
     });
-    this.joints = this.robot.arm.joints.map(({ limits }) => limits);
-    this.arm = {
-      lower_rad: this.joints.map(limits => limits.lower_rad),
-      upper_rad: this.joints.map(limits => limits.upper_rad),
-      speed_rad_s: this.joints.map(limits => limits.speed_rad_s),
-      acceleration_rad_s2: this.joints.map(limits => limits.acceleration_rad_s2),
-      type: typeOf(this.model),
-    };
-    this.slotTcp = this.memory.slotOf("actual_TCP_pose");
-    this.slotOffset = this.memory.slotOf("tcp_offset");
-    this.primary = new ScriptServer({
-      ...this.common,
-      name: "Primary interface",
-      greeting: this.greeting,
-      onScript: this.onScript,
-    });
-    this.secondary = new ScriptServer({
-      ...this.common,
-      name: "Secondary interface",
-      greeting: this.greeting,
-      onScript: this.onScript,
-    });
-    this.realTime = new ScriptServer({
-      ...this.common,
-      name: "Real-time interface",
-      greeting: () => [],
-      onScript: this.onScript,
-    });
-    this.primaryCopy = new ScriptServer({
-      ...this.common,
-      name: "Primary interface, read-only",
-      greeting: this.greeting,
-    });
-    this.secondaryCopy = new ScriptServer({
-      ...this.common,
-      name: "Secondary interface, read-only",
-      greeting: this.greeting,
-    });
-    this.realTimeCopy = new ScriptServer({
-      ...this.common,
-      name: "Real-time interface, read-only",
-      greeting: () => [],
-    });
-    this.packageTellers = [this.primary, this.secondary, this.primaryCopy, this.secondaryCopy];
-    this.streams = [this.realTime, this.realTimeCopy];
-    this.fill = stateFiller(this.robot, this.memory, this.mover, this.states, this.programs);
-    this.states.begin(this.options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
-    this.neutral.onSample(sample => {
-      this.outbox.cycle();
-      if (this.frozen !== this.faults.frozen) {
-        this.frozen = this.faults.frozen;
-        this.mover.hold(this.frozen);
-      }
-      if (this.frozen) return;
-      this.cycles++;
-      if (sample.gripperClosed !== this.gripper) {
-        this.gripper = sample.gripperClosed;
-        this.memory.setDigital("output", GRIPPER_BIT, this.gripper);
-      }
-      const q = this.mover.cycle(sample);
-      this.fill(this.booted_s + this.now_s(), q, this.panel.fraction);
-      this.states.cycle(this.now_s());
-      const ended = this.programs.cycle();
-      if (ended !== "") {
-        this.log(ended);
-        this.tell(errorMessage(this.time_us(), 0, 1, ended));
-      }
-      this.rtde.cycle(this.cycles);
-      if (this.realTime.clients + this.realTimeCopy.clients > 0) {
-        const bytes = this.realTimePackage(this.memory.slots);
-        for (const server of this.streams) server.tell(bytes, true);
-      }
-      if (this.cycles % PRIMARY_CYCLES === 0 && this.packageTellers.some(({ clients }) => clients > 0)) {
-        const bytes = this.packaged();
-        for (const server of this.packageTellers) server.tell(bytes, true);
-      }
-    });
-    this.wanted = { ...UR_PORTS, ...this.options.ports };
-    this.servers = {
-      dashboard: this.dashboard,
-      primary: this.primary,
-      secondary: this.secondary,
-      realTime: this.realTime,
-      rtde: this.rtde,
-      primaryCopy: this.primaryCopy,
-      secondaryCopy: this.secondaryCopy,
-      realTimeCopy: this.realTimeCopy,
-    };
-    this.ports = { ...this.wanted };
+  }
+
+  /** One cycle of the controller. */
+  private cycle(sample: JointSample): void {
+    this.outbox.cycle();
+    if (this.frozen !== this.faults.frozen) {
+      this.frozen = this.faults.frozen;
+      this.mover.hold(this.frozen);
+    }
+    if (this.frozen) return;
+    this.cycles++;
+    if (sample.gripperClosed !== this.gripper) {
+      this.gripper = sample.gripperClosed;
+      this.memory.setDigital("output", GRIPPER_BIT, this.gripper);
+    }
+    const q = this.mover.cycle(sample);
+    this.fill(this.booted_s + this.now_s(), q, this.panel.fraction);
+    this.states.cycle(this.now_s());
+    const ended = this.programs.cycle();
+    if (ended !== "") {
+      this.log(ended);
+      this.tell(errorMessage(this.time_us(), 0, 1, ended));
+    }
+    this.rtde.cycle(this.cycles);
+    if (this.realTime.clients + this.realTimeCopy.clients > 0) {
+      const bytes = this.realTimePackage(this.memory.slots);
+      for (const server of this.streams) server.tell(bytes, true);
+    }
+    if (this.cycles % PRIMARY_CYCLES === 0 && this.packageTellers.some(({ clients }) => clients > 0)) {
+      const bytes = this.packaged();
+      for (const server of this.packageTellers) server.tell(bytes, true);
+    }
   }
 
   async open(): Promise<UrStarted> {

@@ -259,7 +259,20 @@ class Functions {
   readonly nothing: ScriptFunction = () => null;
 }
 
-function robotFunctionsOf(own: Functions): Readonly<Record<string, ScriptFunction>> {
+type Group = Readonly<Record<string, ScriptFunction>>;
+
+function robotFunctionsOf(own: Functions): Group {
+  return {
+    ...motionsOf(own),
+    ...measuredOf(own),
+    ...settingsOf(own),
+    ...registersOf(own),
+    ...withoutEffectOf(own),
+  };
+}
+
+/** Motions, and what takes time. */
+function motionsOf(own: Functions): Group {
   return {
     movej: (args, thread) => own.travel(own.joint(args, args.value(0, "q")), thread),
     movel: (args, thread) => own.travel(own.tool(args, "lin", args.value(0, "pose"), 1), thread),
@@ -329,7 +342,12 @@ function robotFunctionsOf(own: Functions): Readonly<Record<string, ScriptFunctio
       own.host.say(asText(args.value(0, "s")));
       return null;
     },
+  };
+}
 
+/** Where the arm is, and where it would be. */
+function measuredOf(own: Functions): Group {
+  return {
     get_inverse_kin: args => {
       const near = args.maybe(1, "qnear");
       const joints = own.solved(
@@ -363,6 +381,12 @@ function robotFunctionsOf(own: Functions): Readonly<Record<string, ScriptFunctio
     get_target_tcp_speed: zeros,
     get_joint_torques: zeros,
     get_tcp_force: zeros,
+  };
+}
+
+/** Tool, load and safety. */
+function settingsOf(own: Functions): Group {
+  return {
     set_tcp: args => {
       own.setTool(own.six(args, args.value(0, "pose")));
       return null;
@@ -407,7 +431,12 @@ function robotFunctionsOf(own: Functions): Readonly<Record<string, ScriptFunctio
       );
       return null;
     },
+  };
+}
 
+/** Registers and lines. */
+function registersOf(own: Functions): Group {
+  return {
     read_input_integer_register: own.reads("input", "int"),
     read_input_float_register: own.reads("input", "double"),
     read_input_boolean_register: own.reads("input", "bit"),
@@ -429,7 +458,11 @@ function robotFunctionsOf(own: Functions): Readonly<Record<string, ScriptFunctio
     set_standard_digital_out: own.digital("output", 0, 8),
     set_configurable_digital_out: own.digital("output", 8, 8),
     set_tool_digital_out: own.digital("output", 16, 2),
+  };
+}
 
+function withoutEffectOf(own: Functions): Group {
+  return {
     // Taken, and without effect here: there is no force, no friction and no hand on the arm.
     set_gravity: own.nothing,
     zero_ftsensor: own.nothing,

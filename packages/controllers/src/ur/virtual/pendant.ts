@@ -1,4 +1,4 @@
-import { identity, type MoveStep, type Robot } from "@twincell/core";
+import { identity, type MoveStep, type Robot, type CommandOutcome } from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { KeyPosition, Pendant, PendantShown } from "../../driver/index.ts";
 import { jointRefusal } from "../../refusals.ts";
@@ -126,6 +126,61 @@ class TeachPanel {
           ? { code: "controller.busy", sentence: `${this.robot.name} is still moving.`, hint: "Wait until it stands." }
           : null;
   }
+
+  shown(): PendantShown {
+    const { robotMode, safetyMode, message } = this.states;
+    return {
+      key: this.panel.remote ? "remote" : this.panel.operational === "AUTOMATIC" ? "automatic" : "manual",
+      override: this.panel.fraction,
+      safety: EMERGENCY_STOPS.has(safetyMode)
+        ? "emergency-stop"
+        : SAFEGUARD_STOPS.has(safetyMode)
+          ? "guard-stop"
+          : this.states.mayMove || safetyMode === SAFETY_MODE.NORMAL
+            ? "normal"
+            : "protective-stop",
+      servo: this.states.isRunning
+        ? "on"
+        : robotMode === ROBOT_MODE.POWER_ON || robotMode === ROBOT_MODE.IDLE
+          ? "coming"
+          : "off",
+      program: this.programs.name,
+      running: this.programs.runtime === RUNTIME.PLAYING,
+      alarms: message === "" ? [] : [message],
+    };
+  }
+
+  async jog(q_rad: ArrayLike<number>, most = 1): Promise<CommandOutcome> {
+    const why = jointRefusal(this.robot, q_rad) ?? this.whyNoJog();
+    if (why) return { kind: "refused", why };
+    const full_mps = jointMoveSpeed(this.robot, this.neutral.jointAngles(), q_rad, FLANGE);
+    const ratio = Math.min(most, BY_HAND, full_mps > 0 ? BY_HAND_MPS / full_mps : 1);
+    const step: MoveStep = {
+      id: "",
+      type: "move",
+      path: "ptp",
+      target: { q: Array.from(q_rad) },
+      speed: { ratio },
+      blend_m: 0,
+    };
+    const moving = this.mover.run([step], { tools: {}, frames: {} });
+    this.jogging = true;
+    return new Promise(resolve => {
+      const done = this.neutral.onSample(() => {
+        if (!moving.over) return;
+        this.jogging = false;
+        done();
+        resolve(
+          moving.sentence === ""
+            ? { kind: "done" }
+            : {
+                kind: "stopped",
+                why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." },
+              },
+        );
+      });
+    });
+  }
 }
 
 function urPendantOf(own: TeachPanel): UrPendant {
@@ -141,26 +196,7 @@ function urPendantOf(own: TeachPanel): UrPendant {
       },
     },
     get shown(): PendantShown {
-      const { robotMode, safetyMode, message } = own.states;
-      return {
-        key: own.panel.remote ? "remote" : own.panel.operational === "AUTOMATIC" ? "automatic" : "manual",
-        override: own.panel.fraction,
-        safety: EMERGENCY_STOPS.has(safetyMode)
-          ? "emergency-stop"
-          : SAFEGUARD_STOPS.has(safetyMode)
-            ? "guard-stop"
-            : own.states.mayMove || safetyMode === SAFETY_MODE.NORMAL
-              ? "normal"
-              : "protective-stop",
-        servo: own.states.isRunning
-          ? "on"
-          : robotMode === ROBOT_MODE.POWER_ON || robotMode === ROBOT_MODE.IDLE
-            ? "coming"
-            : "off",
-        program: own.programs.name,
-        running: own.programs.runtime === RUNTIME.PLAYING,
-        alarms: message === "" ? [] : [message],
-      };
+      return own.shown();
     },
     turnKey(position) {
       if (position !== "remote") own.panel.operational = position === "automatic" ? "AUTOMATIC" : "MANUAL";
@@ -200,37 +236,7 @@ function urPendantOf(own: TeachPanel): UrPendant {
       return unlocked === "unlocked" || own.states.message === "" ? null : own.states.message;
     },
     stopJog: own.stopJog,
-    async jog(q_rad, most = 1) {
-      const why = jointRefusal(own.robot, q_rad) ?? own.whyNoJog();
-      if (why) return { kind: "refused", why };
-      const full_mps = jointMoveSpeed(own.robot, own.neutral.jointAngles(), q_rad, FLANGE);
-      const ratio = Math.min(most, BY_HAND, full_mps > 0 ? BY_HAND_MPS / full_mps : 1);
-      const step: MoveStep = {
-        id: "",
-        type: "move",
-        path: "ptp",
-        target: { q: Array.from(q_rad) },
-        speed: { ratio },
-        blend_m: 0,
-      };
-      const moving = own.mover.run([step], { tools: {}, frames: {} });
-      own.jogging = true;
-      return new Promise(resolve => {
-        const done = own.neutral.onSample(() => {
-          if (!moving.over) return;
-          own.jogging = false;
-          done();
-          resolve(
-            moving.sentence === ""
-              ? { kind: "done" }
-              : {
-                  kind: "stopped",
-                  why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." },
-                },
-          );
-        });
-      });
-    },
+    jog: (q_rad, most) => own.jog(q_rad, most),
     setSpeed: own.setSpeed,
     emergencyStop(pressed) {
       own.states.emergencyStop(pressed);

@@ -226,6 +226,75 @@ class YaskawaWire {
     });
   }
 
+  async open(events: AdapterEvents): Promise<Opened> {
+    this.close();
+    const mine = this.life;
+    const failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
+    if (this.scale.pulsesPerDegree.length !== this.n)
+      return failed(noPulses(this.robot, this.scale.pulsesPerDegree.length), false);
+    const here = this.options.local ?? "0.0.0.0";
+    const open: Client[] = [];
+    const shut = (): void => {
+      for (const client of open) client.close();
+    };
+    // A controller hears one question at a time of each sender: who watches does not wait behind an order whose
+    // answer was lost.
+    for (const [address, division] of [
+      [this.to, DIVISION.robot],
+      [this.to, DIVISION.robot],
+      [this.filesAt, DIVISION.file],
+    ] as const) {
+      const bound = await this.network.bind({ host: here, port: 0 });
+      if (bound.kind === "taken" || mine !== this.life) {
+        shut();
+        if (bound.kind === "bound") bound.socket.close();
+        return failed(
+          {
+            code: "link.no-port",
+            sentence: bound.kind === "taken" ? bound.sentence : "The link was closed.",
+            hint: "Look at the network of this machine.",
+          },
+          true,
+        );
+      }
+      open.push(
+        hsesClient({
+          socket: bound.socket,
+          to: address,
+          division,
+          scheduler: this.scheduler,
+          ...(open.length === 0
+            ? {
+                onRoundTrip: seconds => {
+                  events.roundTrip(seconds);
+                },
+              }
+            : {}),
+        }),
+      );
+    }
+    const [watch, orders, fileLine] = open as [Client, Client, Client];
+    this.begun_s = this.scheduler.now_s();
+    const wrong = await this.strange(watch);
+    if (wrong || mine !== this.life) {
+      shut();
+      return wrong
+        ? failed(wrong.why, wrong.again)
+        : failed({ code: "link.closed", sentence: "The link was closed.", hint: "Connect it again." }, false);
+    }
+    const stopPolling = this.keepPolling(watch, events, mine);
+    this.line = {
+      orders,
+      files: fileClient(fileLine),
+      close() {
+        stopPolling();
+        shut();
+      },
+    };
+    this.hand.take(orders);
+    return { kind: "open" };
+  }
+
   /** Whether the right robot answers; null when it does. */
   async strange(client: Client): Promise<{ readonly why: Refusal; readonly again: boolean } | null> {
     const info = await this.ask(client, COMMAND.systemInfo, 11, OPEN_PATIENCE_S);
@@ -284,74 +353,7 @@ function yaskawaAdapterOf(wire: YaskawaWire): YaskawaAdapter {
     get files() {
       return wire.line?.files ?? null;
     },
-    async open(events): Promise<Opened> {
-      wire.close();
-      const mine = wire.life;
-      const failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
-      if (wire.scale.pulsesPerDegree.length !== wire.n)
-        return failed(noPulses(wire.robot, wire.scale.pulsesPerDegree.length), false);
-      const here = wire.options.local ?? "0.0.0.0";
-      const open: Client[] = [];
-      const shut = (): void => {
-        for (const client of open) client.close();
-      };
-      // A controller hears one question at a time of each sender: who watches does not wait behind an order whose
-      // answer was lost.
-      for (const [address, division] of [
-        [wire.to, DIVISION.robot],
-        [wire.to, DIVISION.robot],
-        [wire.filesAt, DIVISION.file],
-      ] as const) {
-        const bound = await wire.network.bind({ host: here, port: 0 });
-        if (bound.kind === "taken" || mine !== wire.life) {
-          shut();
-          if (bound.kind === "bound") bound.socket.close();
-          return failed(
-            {
-              code: "link.no-port",
-              sentence: bound.kind === "taken" ? bound.sentence : "The link was closed.",
-              hint: "Look at the network of this machine.",
-            },
-            true,
-          );
-        }
-        open.push(
-          hsesClient({
-            socket: bound.socket,
-            to: address,
-            division,
-            scheduler: wire.scheduler,
-            ...(open.length === 0
-              ? {
-                  onRoundTrip: seconds => {
-                    events.roundTrip(seconds);
-                  },
-                }
-              : {}),
-          }),
-        );
-      }
-      const [watch, orders, fileLine] = open as [Client, Client, Client];
-      wire.begun_s = wire.scheduler.now_s();
-      const wrong = await wire.strange(watch);
-      if (wrong || mine !== wire.life) {
-        shut();
-        return wrong
-          ? failed(wrong.why, wrong.again)
-          : failed({ code: "link.closed", sentence: "The link was closed.", hint: "Connect it again." }, false);
-      }
-      const stopPolling = wire.keepPolling(watch, events, mine);
-      wire.line = {
-        orders,
-        files: fileClient(fileLine),
-        close() {
-          stopPolling();
-          shut();
-        },
-      };
-      wire.hand.take(orders);
-      return { kind: "open" };
-    },
+    open: events => wire.open(events),
     close: wire.close,
     cannotSay(order) {
       if (order.kind === "signal") return wire.lines.cannotWrite(order.signal, order.value);

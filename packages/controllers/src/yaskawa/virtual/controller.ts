@@ -1,3 +1,4 @@
+import type { Division } from "../codec/packet.ts";
 import type { DatagramSocket } from "../../transport/port.ts";
 import {
   brakingTime_s,
@@ -144,7 +145,6 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
   return { kind: "listening", controller: yaskawaOn(options, robotPort.socket, filePort.socket) };
 }
 
-// TODO early return in setup
 function yaskawaOn(
   options: VirtualYaskawaOptions,
   robotPort: DatagramSocket,
@@ -239,52 +239,53 @@ class YaskawaControllerState {
     });
     this.robotSocket = faultySocket(this.robotPort, this.faults, this.scheduler, this.random);
     this.fileSocket = faultySocket(this.filePort, this.faults, this.scheduler, this.random);
-    for (const [socket, division] of [
-      [this.robotSocket, DIVISION.robot],
-      [this.fileSocket, DIVISION.file],
-    ] as const) {
-      const send = (reply: HsesReply, to: Parameters<typeof socket.send>[1]): void => {
-        socket.send(this.out.subarray(0, writeReply(reply, this.out)), to);
-      };
-      socket.onDatagram((lent, from) => {
-        if (this.isOff) return;
-        const read = readRequest(lent);
-        const sender = addressText(from);
-        const flaw =
-          read.kind === "flawed"
-            ? read
-            : read.packet.division !== division
-              ? { added: 0xe4a3, sentence: `Division ${read.packet.division} has another port.` }
-              : null;
-        if (read.kind === "flawed" || flaw) {
-          this.log(sender, flaw!.sentence);
-          // What is not even a header is not answered.
-          if (lent.length >= HEADER_BYTES)
-            send(
-              {
-                division,
-                id: lent[11]!,
-                block: LAST_BLOCK,
-                service: lent[29]! & 0x7f,
-                status: STATUS.refused,
-                added: flaw!.added,
-                data: this.nothing,
-              },
-              from,
-            );
-          return;
-        }
-        const { packet } = read;
-        const { id, service } = packet;
-        if (division === DIVISION.robot) {
-          // Answers of a robot command are one block; there is nothing to acknowledge.
-          if (!packet.ack) send({ division, id, block: LAST_BLOCK, service, ...this.once(packet, sender) }, from);
-          return;
-        }
-        const answered = this.answerFile(packet, sender);
-        if (answered) send({ division, id, service, ...answered }, from);
-      });
-    }
+    this.serve(this.robotSocket, DIVISION.robot);
+    this.serve(this.fileSocket, DIVISION.file);
+  }
+
+  /** Answers what comes to one of the two ports. */
+  private serve(socket: DatagramSocket, division: Division): void {
+    const send = (reply: HsesReply, to: Parameters<typeof socket.send>[1]): void => {
+      socket.send(this.out.subarray(0, writeReply(reply, this.out)), to);
+    };
+    socket.onDatagram((lent, from) => {
+      if (this.isOff) return;
+      const read = readRequest(lent);
+      const sender = addressText(from);
+      const flaw =
+        read.kind === "flawed"
+          ? read
+          : read.packet.division !== division
+            ? { added: 0xe4a3, sentence: `Division ${read.packet.division} has another port.` }
+            : null;
+      if (read.kind === "flawed" || flaw) {
+        this.log(sender, flaw!.sentence);
+        // What is not even a header is not answered.
+        if (lent.length >= HEADER_BYTES)
+          send(
+            {
+              division,
+              id: lent[11]!,
+              block: LAST_BLOCK,
+              service: lent[29]! & 0x7f,
+              status: STATUS.refused,
+              added: flaw!.added,
+              data: this.nothing,
+            },
+            from,
+          );
+        return;
+      }
+      const { packet } = read;
+      const { id, service } = packet;
+      if (division === DIVISION.robot) {
+        // Answers of a robot command are one block; there is nothing to acknowledge.
+        if (!packet.ack) send({ division, id, block: LAST_BLOCK, service, ...this.once(packet, sender) }, from);
+        return;
+      }
+      const answered = this.answerFile(packet, sender);
+      if (answered) send({ division, id, service, ...answered }, from);
+    });
   }
 
   readonly unix_s = (): number => (this.options.began_unix_s ?? 0) + this.scheduler.now_s() - this.zero_s;
