@@ -38,4 +38,9 @@ export default [
       ],
     },
   },
+  {
+    files: ["packages/controllers/src/**/*.ts"],
+    ignores: ["**/*.test.ts", "**/testing/**"],
+    rules: { "max-lines-per-function": ["error", { max: 100 }], complexity: ["error", 20] },
+  },
 ];

@@ -3,6 +3,7 @@ export * from "./outcomes.ts";
 export * from "./signals.ts";
 export * from "./random.ts";
 export * from "./ports.ts";
+export * from "./connected-robot.ts";
 export * from "./scheduler.ts";
 export * from "./spatial/index.ts";
 export * from "./mesh/index.ts";

@@ -1,11 +1,10 @@
 import {
   parseProgram,
   type CommandOutcome,
-  type JointSample,
-  type LinkReport,
-  type Program,
+  type ConnectedRobot,
+  type PreparedRun,
   type Refusal,
-  type RobotController,
+  type RobotCommander,
   type Scheduler,
 } from "@twincell/core";
 import { auditEntryState, type AuditEntry } from "./acts.ts";
@@ -15,28 +14,10 @@ import type { Channel } from "./channel.ts";
 import { requestOrEnd, PROTOCOL, write } from "./read.ts";
 import type { ConnectionInfo, ConnectionEvent, EventOf } from "./tell.ts";
 
-/** The place of one who commands at one station. */
-export interface ServedCommander {
-  acquireLease(): CommandOutcome;
-  releaseLease(): CommandOutcome;
-  setEnabled(pressed: boolean): CommandOutcome;
-  acknowledge(): CommandOutcome;
-  alive(): void;
-  readonly robot: RobotController;
-}
 /** What a host needs of a station. */
-export interface ServedConnection<Seat extends ServedCommander = ServedCommander> {
+export interface ServedConnection<C extends RobotCommander = RobotCommander> extends ConnectedRobot<C> {
   readonly words: ConnectionInfo;
-  readonly link: LinkReport | null;
   readonly guard: { readonly state: Omit<EventOf<"guard">, "type" | "station" | "cell" | "kept_m"> };
-  /** Whether its guard knows a cell, and how much it keeps from what stands there [m]. */
-  readonly kept: { readonly cell: boolean; readonly kept_m: number };
-  readonly deviation: { readonly plan_rad: number; readonly command_rad: number };
-  commander(who: string): Seat;
-  connect(): Promise<CommandOutcome>;
-  disconnect(): void;
-  /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
-  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
   readonly ahead: {
     horizon_s: number;
     onChange(
@@ -49,37 +30,13 @@ export interface ServedConnection<Seat extends ServedCommander = ServedCommander
       ) => void,
     ): () => void;
   };
-  preview(program: Program): Promise<CommandOutcome>;
-  /** Whether its connection can be told every step of it, one by one. */
-  takes(program: Program): CommandOutcome;
-  run(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
-  /** Makes a program ready to be started: what may be refused is told before anything moves. */
-  prepare(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<ServedRun>;
-  stop(emergency: boolean): void;
-  /** The cell whose objects and tool its guard keeps it from. */
-  setCell(document: unknown): CommandOutcome;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
   readonly pendant: ServedVirtualPendant | null;
-  readonly plug: ((pulled: boolean) => void) | null;
-  onSample(listen: (lent: JointSample) => void): () => void;
-  onLink(listen: (report: LinkReport) => void): () => void;
   onGuard(listen: () => void): () => void;
-  onNotice(listen: (why: Refusal) => void): () => void;
-  close(): void;
 }
-/** A program that a station has and is ready for. */
-export type ServedRun =
-  | {
-      readonly kind: "armed";
-      readonly movesAtOnce: boolean;
-      readiness(): Refusal | null;
-      start(): Promise<CommandOutcome>;
-      drop(): void;
-    }
-  | { readonly kind: "refused"; readonly why: Refusal };
 export interface ServedMember {
   readonly station: ServedConnection;
-  readonly prepare: () => Promise<ServedRun>;
+  readonly prepare: () => Promise<PreparedRun>;
 }
 export interface ServedGroup {
   readonly outcome: CommandOutcome;
@@ -298,14 +255,14 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
       return [...stations.values()].map(({ station }) => station);
     },
     join(who, channel) {
-      const commanders = new Map<ServedConnection, ServedCommander>();
+      const commanders = new Map<ServedConnection, RobotCommander>();
       const visits = new Map<ServedConnection, PendantSubscription>();
       const me = `${who} ${++people}`;
       let gone = false;
       const tell = (message: ConnectionEvent): void => {
         if (!gone) channel.send(write(message));
       };
-      const seatAt = (station: ServedConnection): ServedCommander => {
+      const seatAt = (station: ServedConnection): RobotCommander => {
         let seat = commanders.get(station);
         if (!seat) commanders.set(station, (seat = station.commander(who)));
         return seat;

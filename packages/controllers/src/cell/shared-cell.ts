@@ -157,7 +157,7 @@ const marginToLinks = (a: Robot, b: Robot): number => a.shapeError_m + b.shapeEr
 
 /** One robot of a cell among the others. */
 function memberOf(cell: SharedCellState, options: PlaceOptions): Member {
-  return memberOfOf(new CellMemberState(cell, options));
+  return cellMemberOf(new CellMemberState(cell, options));
 }
 
 class CellMemberState {
@@ -257,7 +257,7 @@ class CellMemberState {
   }
 }
 
-function memberOfOf(own: CellMemberState): Member {
+function cellMemberOf(own: CellMemberState): Member {
   const member: Member = {
     id: own.id,
     options: own.options,
@@ -319,36 +319,9 @@ function memberOfOf(own: CellMemberState): Member {
       for (const each of own.cell.members) each.forget(member);
     },
     meet: other => {
-      const arm = new OtherArm(
-        other.id,
-        other.options.name,
-        other.options.robot,
-        own.cell.solidsOf(other.options.robot),
-        other.options.worldFromBase,
-        other.q_rad,
-      );
-      const neighbour: Neighbour = {
-        id: other.id,
-        name: other.options.name,
-        joints: other.q_rad.length,
-        member: other,
-        arm,
-        scratch: new Float64Array(other.q_rad.length),
-        pairs: [],
-        picked: null,
-        floor_m: Infinity,
-        get moving() {
-          return other.moving || other.path !== null;
-        },
-        kept_m: own.cell.between_m,
-        error_m: marginToLinks(own.robot, other.options.robot),
-        expected(in_s, out) {
-          if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
-        },
-        distance: (mine_rad, its_rad, cutoff_m) => own.below(neighbour, mine_rad, its_rad, cutoff_m, true),
-      };
+      const neighbour = neighbourOf(own, other);
       own.neighbours.push(neighbour);
-      for (const object of arm.objects) own.collider.setObject(object satisfies CellObject);
+      for (const object of neighbour.arm.objects) own.collider.setObject(object satisfies CellObject);
     },
     forget(other) {
       const at = own.neighbours.findIndex(each => each.member === other);
@@ -358,4 +331,37 @@ function memberOfOf(own: CellMemberState): Member {
     },
   };
   return member;
+}
+
+/** Another robot of the cell as that one sees it. */
+function neighbourOf(own: CellMemberState, other: Member): Neighbour {
+  const arm = new OtherArm(
+    other.id,
+    other.options.name,
+    other.options.robot,
+    own.cell.solidsOf(other.options.robot),
+    other.options.worldFromBase,
+    other.q_rad,
+  );
+  const neighbour: Neighbour = {
+    id: other.id,
+    name: other.options.name,
+    joints: other.q_rad.length,
+    member: other,
+    arm,
+    scratch: new Float64Array(other.q_rad.length),
+    pairs: [],
+    picked: null,
+    floor_m: Infinity,
+    get moving() {
+      return other.moving || other.path !== null;
+    },
+    kept_m: own.cell.between_m,
+    error_m: marginToLinks(own.robot, other.options.robot),
+    expected(in_s, out) {
+      if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
+    },
+    distance: (mine_rad, its_rad, cutoff_m) => own.below(neighbour, mine_rad, its_rad, cutoff_m, true),
+  };
+  return neighbour;
 }

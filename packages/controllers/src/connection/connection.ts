@@ -8,6 +8,7 @@ import {
   type LinkReport,
   type Plan,
   type Pose,
+  type PreparedRun,
   type Program,
   type RealController,
   type Refusal,
@@ -65,17 +66,6 @@ export interface RobotJob {
   /** The parts of the cell that it carries. */
   readonly carried?: readonly CarriedPart[];
 }
-
-/** A program that a controller has and is ready for. */
-export type PreparedRun =
-  | {
-      readonly kind: "armed" /** Its program begins with a motion: whether it begins can be seen. */;
-      readonly movesAtOnce: boolean /** Why it would be turned down now. */;
-      readiness(): Refusal | null;
-      start(): Promise<CommandOutcome> /** It is not started after all. */;
-      drop(): void;
-    }
-  | { readonly kind: "refused"; readonly why: Refusal };
 
 /**
  * One controller of the cell as the studio has it: behind its guard, with its twin, its link and how far it is from

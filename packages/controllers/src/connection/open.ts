@@ -7,8 +7,10 @@ import {
   pose,
   unrolled,
   type CommandOutcome,
+  type ConnectedRobot,
   type Dialect,
   type Pose,
+  type PreparedRun,
   type Program,
   type Refusal,
   type Robot,
@@ -35,7 +37,7 @@ import { listeners } from "../listeners.ts";
 import { DONE, refused } from "../outcomes.ts";
 import { prepareJob, withLinks, type CellDefinition, type PrepareJob } from "./prepare-job.ts";
 import { openVirtualPendant, type VirtualPendant, type VirtualPendantOpened } from "./virtual-pendant.ts";
-import { createRobotConnection, type PreparedRun, type RobotConnection, type RobotJob } from "./connection.ts";
+import { createRobotConnection, type RobotConnection, type RobotJob } from "./connection.ts";
 import { movedMeanwhile, noCell, stoppedMeanwhile } from "./words.ts";
 
 /** A cell that was read from a document, or why it was not. */
@@ -80,7 +82,7 @@ export interface OpenOptions {
 const STANDS_RAD = 1e-3;
 
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
-export interface VendorConnection extends RobotConnection {
+export interface VendorConnection extends RobotConnection, ConnectedRobot<Commander> {
   /** What is said of it. */
   readonly words: {
     readonly id: string;
@@ -92,35 +94,7 @@ export interface VendorConnection extends RobotConnection {
   };
   /** null where a person stands before a real one. */
   readonly pendant: VirtualPendant | null;
-  /** Pulls the plug of the wire to a virtual controller, or puts it back. */
-  readonly plug: ((pulled: boolean) => void) | null;
-  /**
-   * Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. It is planned
-   * from where the robot stands and checked in its cell first: what makes the check red keeps it from being sent.
-   *
-   * @param despite  codes of findings that a person has seen and sends it in spite of; the guard stops it before
-   *   contact all the same.
-   */
-  run(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
-  /** Whether every step of it can be told over this connection, one by one; refused with all that cannot. */
-  takes(program: Program): CommandOutcome;
-  /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
-  preview(program: Program): Promise<CommandOutcome>;
-  /** The same in two, for a start together with others: what may be refused is told before anything moves. */
-  prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
-  stop(emergency: boolean): void;
-  /**
-   * Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot
-   * be read leaves the one before.
-   */
-  setCell(document: unknown): CommandOutcome;
-  /**
-   * Whether a cell is known to its guard, and what is kept between its links and what stands there, all errors in it
-   * [m].
-   */
-  readonly kept: { readonly cell: boolean; readonly kept_m: number };
-  /** Only to watch it from now on, or to command it again. */
-  watch(commander: Commander, on: boolean): Promise<CommandOutcome>;
+  close(then?: () => void): void;
 }
 export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }

@@ -1,6 +1,6 @@
-import type { CommandOutcome, JointSample, Refusal, Scheduler } from "@twincell/core";
+import type { CommandOutcome, JointSample, Refusal, Scheduler, PreparedRun } from "@twincell/core";
 import { DONE } from "../outcomes.ts";
-import type { PreparedRun } from "./connection.ts";
+
 import { didNotBegin, stoppedWith } from "./words.ts";
 
 /** Between the first and the last of a group to be seen moving [s]; measured for every pair of brands by a test. */

@@ -44,164 +44,188 @@ export interface LinkListener {
  * Keeps one connection: opens it, watches that samples keep coming, and when they do not, closes it and tries again
  * with growing pauses until somebody closes the link. What an old connection still says is not listened to.
  */
-export function keepLink(adapter: ControllerAdapter, scheduler: Scheduler, name: string, listener: LinkListener): Link {
-  const meter = new Meter();
-  const changes = listeners<LinkReport>();
-  let state: LinkState = "closed";
-  let sentence = notOpen(name).sentence;
-  let attempts = 0;
-  let roundTrip_s = NaN;
-  let heard_s = 0;
-  let life = 0;
-  let wasThere = false;
-  let stopWaiting: () => void = () => {
-    /* Nothing waits yet. */
-  };
-  let giveUp: () => void = stopWaiting;
 
-  const report: LinkReport = {
-    get state() {
-      return state;
-    },
-    get sentence() {
-      return sentence;
-    },
-    get attempts() {
-      return attempts;
-    },
-    get rate_Hz() {
-      return meter.now.rate_Hz;
-    },
-    get late_s() {
-      return meter.now.late_s;
-    },
-    get missing() {
-      return meter.now.missing;
-    },
-    get roundTrip_s() {
-      return roundTrip_s;
-    },
-  };
-  const become = (to: LinkState, says: string): void => {
-    state = to;
-    sentence = says;
-    changes.call(report);
-  };
-  const after = (seconds: number, then: () => void): void => {
-    stopWaiting();
-    const stop = scheduler.every(seconds, () => {
+export function keepLink(adapter: ControllerAdapter, scheduler: Scheduler, name: string, listener: LinkListener): Link {
+  return keptLinkOf(new KeptLink(adapter, scheduler, name, listener));
+}
+
+class KeptLink {
+  readonly report: LinkReport = reportOf(this);
+  readonly adapter: ControllerAdapter;
+  readonly scheduler: Scheduler;
+  readonly name: string;
+  readonly listener: LinkListener;
+  readonly meter = new Meter();
+  readonly changes = listeners<LinkReport>();
+  state: LinkState = "closed";
+  sentence: string;
+  attempts = 0;
+  roundTrip_s = NaN;
+  heard_s = 0;
+  life = 0;
+  wasThere = false;
+
+  constructor(adapter: ControllerAdapter, scheduler: Scheduler, name: string, listener: LinkListener) {
+    this.adapter = adapter;
+    this.scheduler = scheduler;
+    this.name = name;
+    this.listener = listener;
+    this.sentence = notOpen(this.name).sentence;
+  }
+
+  stopWaiting: () => void = () => undefined;
+
+  giveUp: () => void = () => undefined;
+
+  become(to: LinkState, says: string): void {
+    this.state = to;
+    this.sentence = says;
+    this.changes.call(this.report);
+  }
+
+  after(seconds: number, then: () => void): void {
+    this.stopWaiting();
+    const stop = this.scheduler.every(seconds, () => {
       stop();
       then();
     });
-    stopWaiting = stop;
-  };
-
-  function lose(why: Refusal): void {
-    life++;
-    adapter.close();
-    become("lost", why.sentence);
-    listener.lost(why);
-    again();
+    this.stopWaiting = stop;
   }
-  const again = (): void => {
-    after(Math.min(LONGEST_PAUSE_S, FIRST_PAUSE_S * 2 ** Math.max(0, attempts - 1)), () => {
-      void attempt();
-    });
-  };
 
-  function watch(): void {
-    stopWaiting();
-    const every_s = adapter.stale_s / LOOKS;
-    let looked_s = scheduler.now_s();
-    stopWaiting = scheduler.every(every_s, () => {
-      const now_s = scheduler.now_s();
-      const silent_s = now_s - heard_s;
+  lose(why: Refusal): void {
+    this.life++;
+    this.adapter.close();
+    this.become("lost", why.sentence);
+    this.listener.lost(why);
+    this.again();
+  }
+
+  again(): void {
+    this.after(Math.min(LONGEST_PAUSE_S, FIRST_PAUSE_S * 2 ** Math.max(0, this.attempts - 1)), () => {
+      void this.attempt();
+    });
+  }
+
+  watch(): void {
+    this.stopWaiting();
+    const every_s = this.adapter.stale_s / LOOKS;
+    let looked_s = this.scheduler.now_s();
+    this.stopWaiting = this.scheduler.every(every_s, () => {
+      const now_s = this.scheduler.now_s();
+      const silent_s = now_s - this.heard_s;
       const wasAway = now_s - looked_s > 2 * every_s;
       looked_s = now_s;
       // After a stall of our own what came meanwhile is still to be read: it is looked again before anybody is blamed.
       if (wasAway) return;
-      if (silent_s > adapter.stale_s) {
-        listener.losing();
-        lose(cameLate(name, silent_s));
+      if (silent_s > this.adapter.stale_s) {
+        this.listener.losing();
+        this.lose(cameLate(this.name, silent_s));
       }
     });
   }
 
-  async function attempt(): Promise<CommandOutcome> {
-    const mine = ++life;
-    attempts++;
-    become("connecting", `${name} is being connected, attempt ${attempts}.`);
-    meter.begin();
-    const isMine = (): boolean => mine === life;
-    const opening = adapter.open({
-      sample(lent) {
+  async attempt(): Promise<CommandOutcome> {
+    const mine = ++this.life;
+    this.attempts++;
+    this.become("connecting", `${this.name} is being connected, attempt ${this.attempts}.`);
+    this.meter.begin();
+    const isMine = (): boolean => mine === this.life;
+    const opening = this.adapter.open({
+      sample: lent => {
         if (!isMine()) return;
         // What is no pose, or is older than what is known, is not heard: a controller that says nothing else is as good
         // as silent.
-        const now_s = scheduler.now_s();
-        if (!isPose(lent.q_rad, adapter.robot) || !meter.take(lent.sequence, lent.time_s, now_s)) return;
-        heard_s = now_s;
-        listener.sample(lent);
+        const now_s = this.scheduler.now_s();
+        if (!isPose(lent.q_rad, this.adapter.robot) || !this.meter.take(lent.sequence, lent.time_s, now_s)) return;
+        this.heard_s = now_s;
+        this.listener.sample(lent);
       },
-      roundTrip(seconds) {
-        if (isMine()) roundTrip_s = seconds;
+      roundTrip: seconds => {
+        if (isMine()) this.roundTrip_s = seconds;
       },
-      lost(says) {
-        if (isMine() && state === "open")
-          lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." });
+      lost: says => {
+        if (isMine() && this.state === "open")
+          this.lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." });
       },
     });
     const tooLong = new Promise<null>(resolve => {
-      giveUp = () => {
+      this.giveUp = () => {
         resolve(null);
       };
-      after(ATTEMPT_S, giveUp);
+      this.after(ATTEMPT_S, this.giveUp);
     });
     const opened = await Promise.race([opening, tooLong]);
-    if (!isMine()) return { kind: "refused", why: notOpen(name) };
+    if (!isMine()) return { kind: "refused", why: notOpen(this.name) };
     if (opened?.kind === "open") {
-      attempts = 0;
-      wasThere = true;
-      heard_s = scheduler.now_s();
-      become("open", "");
-      watch();
+      this.attempts = 0;
+      this.wasThere = true;
+      this.heard_s = this.scheduler.now_s();
+      this.become("open", "");
+      this.watch();
       return { kind: "done" };
     }
-    life++;
-    adapter.close();
-    const why = opened?.why ?? noAnswer(name, ATTEMPT_S);
-    if (opened?.again === false && (!wasThere || attempts > HEARD_TWICE)) {
-      stopWaiting();
-      become("closed", why.sentence);
+    this.life++;
+    this.adapter.close();
+    const why = opened?.why ?? noAnswer(this.name, ATTEMPT_S);
+    if (opened?.again === false && (!this.wasThere || this.attempts > HEARD_TWICE)) {
+      this.stopWaiting();
+      this.become("closed", why.sentence);
     } else {
-      become("lost", why.sentence);
-      again();
+      this.become("lost", why.sentence);
+      this.again();
     }
     return { kind: "refused", why };
   }
+}
 
+function keptLinkOf(own: KeptLink): Link {
   return {
-    report,
+    report: own.report,
     get isOpen() {
-      return state === "open";
+      return own.state === "open";
     },
     async open() {
-      if (state === "open") return { kind: "done" };
-      attempts = 0;
-      wasThere = false;
-      meter.reset();
-      return attempt();
+      if (own.state === "open") return { kind: "done" };
+      own.attempts = 0;
+      own.wasThere = false;
+      own.meter.reset();
+      return own.attempt();
     },
     close() {
-      if (state === "closed") return;
-      const wasOpen = state === "open";
-      life++;
-      stopWaiting();
-      giveUp();
-      adapter.close();
-      become("closed", notOpen(name).sentence);
-      if (wasOpen) listener.lost(notOpen(name));
+      if (own.state === "closed") return;
+      const wasOpen = own.state === "open";
+      own.life++;
+      own.stopWaiting();
+      own.giveUp();
+      own.adapter.close();
+      own.become("closed", notOpen(own.name).sentence);
+      if (wasOpen) own.listener.lost(notOpen(own.name));
     },
-    onChange: listen => changes.add(listen),
+    onChange: listen => own.changes.add(listen),
   };
 }
+
+/** The figures of a link as they are when they are asked for. */
+const reportOf = (own: KeptLink): LinkReport => ({
+  get state() {
+    return own.state;
+  },
+  get sentence() {
+    return own.sentence;
+  },
+  get attempts() {
+    return own.attempts;
+  },
+  get rate_Hz() {
+    return own.meter.now.rate_Hz;
+  },
+  get late_s() {
+    return own.meter.now.late_s;
+  },
+  get missing() {
+    return own.meter.now.missing;
+  },
+  get roundTrip_s() {
+    return own.roundTrip_s;
+  },
+});

@@ -7,6 +7,7 @@ import {
   type JointSample,
   type Pose,
   type Refusal,
+  type RobotCommander,
   type RobotController,
   type Scheduler,
   type Signals,
@@ -77,23 +78,12 @@ export interface GuardedCell {
 }
 
 /** One who may command: mouse, headset, gamepad, server. */
-export interface Commander {
+export interface Commander extends RobotCommander {
   readonly name: string;
-  /** Takes the motion lease. One at a time has it. */
-  acquireLease(): CommandOutcome;
-  releaseLease(): CommandOutcome;
-  /** The enabling switch: pressed or let go. */
-  setEnabled(pressed: boolean): CommandOutcome;
-  /** A person's word that motion is wanted again, after a lost link or beside an obstacle. */
-  acknowledge(): CommandOutcome;
   /** Only to look at what others do with the robot, or to command it again. While it is watched only a stop is sent. */
   watch(on: boolean): CommandOutcome;
   /** Why a command would be turned down now; nothing is sent and nothing changes. */
   readiness(): Refusal | null;
-  /** Sign of life, where heartbeats are asked for. */
-  alive(): void;
-  /** The robot as this seat may command it. */
-  readonly robot: RobotController;
 }
 
 export interface Guard {
@@ -403,6 +393,24 @@ class GuardedController {
     return jointRefusal(this.robot, target_rad) ?? (this.isSafe(Float64Array.from(target_rad)) ? null : targetTooNear);
   };
 
+  /** In manual mode the tool is no faster than its cap. */
+  private watchSpeed(dt_s: number): void {
+    const speed_mps = distance(this.tip.position, this.tipBefore.position) / dt_s;
+    if (speed_mps > SPEED_SLACK * this.cap_mps) {
+      this.notice(tooFast(speed_mps, this.cap_mps));
+      this.send({ type: "stop", emergency: false });
+    }
+  }
+  /** A robot that stood too near may only go away from there. */
+  private watchLeaving(here: boolean): void {
+    this.leaving = !here;
+    if (!this.leaving) this.lookAgain();
+    if (!this.leaving || this.state.motion !== "moving" || (this.addsNone(this.q_rad) && this.freeAhead(this.addsNone)))
+      return;
+    this.notice(cameTooNear);
+    this.send({ type: "too-near" });
+  }
+
   /** Looks at one sample: link, clearance here and where a stop would end, speed of the tool. */
   readonly watch = (lent: JointSample): void => {
     this.heard_s = this.scheduler.now_s();
@@ -420,13 +428,7 @@ class GuardedController {
     [this.tip, this.tipBefore] = [this.tipBefore, this.tip];
     this.tcp(this.q_rad, this.tip);
     const underWay = this.state.motion === "moving" || this.state.motion === "returning";
-    if (underWay && this.manual && known) {
-      const speed_mps = distance(this.tip.position, this.tipBefore.position) / dt_s;
-      if (speed_mps > SPEED_SLACK * this.cap_mps) {
-        this.notice(tooFast(speed_mps, this.cap_mps));
-        this.send({ type: "stop", emergency: false });
-      }
-    }
+    if (underWay && this.manual && known) this.watchSpeed(dt_s);
     if (this.place) {
       this.place.guarded = this.state.motion !== "at-rest";
       this.place.tell(this.q_rad, this.ahead_rad);
@@ -438,16 +440,7 @@ class GuardedController {
     }
     const here = this.isSafe(this.q_rad);
     if (this.leaving) {
-      this.leaving = !here;
-      if (!this.leaving) this.lookAgain();
-      if (
-        !this.leaving ||
-        this.state.motion !== "moving" ||
-        (this.addsNone(this.q_rad) && this.freeAhead(this.addsNone))
-      )
-        return;
-      this.notice(cameTooNear);
-      this.send({ type: "too-near" });
+      this.watchLeaving(here);
       return;
     }
     const kept =

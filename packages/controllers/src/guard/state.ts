@@ -74,87 +74,148 @@ export const mayMove = (state: GuardState, rules: GuardRules): boolean =>
   state.link === "up" &&
   !state.emergency;
 
-export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRules): GuardAnswer {
-  const underWay = state.motion === "moving" || state.motion === "returning";
-  /** The robot is stopped; what it had still to do on its own now needs a person. */
-  const halted = (to: Partial<GuardState>, effects: readonly GuardEffect[]): GuardAnswer => ({
-    state: {
-      ...state,
-      ...to,
-      motion: underWay ? "stopping" : state.motion,
-      trip: state.trip === "none" ? "none" : "return-wanted",
-    },
-    effects,
-  });
-  const deny = (denied: GuardDenial): GuardAnswer => ({ state, effects: [], denied });
-  const to = (change: Partial<GuardState>, ...effects: GuardEffect[]): GuardAnswer => ({
-    state: { ...state, ...change },
-    effects,
-  });
+/** What a step of the guard answers with, in a state. */
+class Answers {
+  readonly state: GuardState;
+  readonly rules: GuardRules;
+  readonly underWay: boolean;
 
-  if (state.watching && onlyCommands(event)) return deny("watching");
+  constructor(state: GuardState, rules: GuardRules) {
+    this.state = state;
+    this.rules = rules;
+    this.underWay = state.motion === "moving" || state.motion === "returning";
+  }
+
+  /** The robot is stopped; what it had still to do on its own now needs a person. */
+  halted(to: Partial<GuardState>, effects: readonly GuardEffect[]): GuardAnswer {
+    const { state } = this;
+    return {
+      state: {
+        ...state,
+        ...to,
+        motion: this.underWay ? "stopping" : state.motion,
+        trip: state.trip === "none" ? "none" : "return-wanted",
+      },
+      effects,
+    };
+  }
+  deny(denied: GuardDenial): GuardAnswer {
+    return { state: this.state, effects: [], denied };
+  }
+  to(change: Partial<GuardState>, ...effects: GuardEffect[]): GuardAnswer {
+    return { state: { ...this.state, ...change }, effects };
+  }
+  allowed(who: string, then: () => GuardAnswer): GuardAnswer {
+    const denied = whyNot(this.state, who, this.rules);
+    return denied ? this.deny(denied) : then();
+  }
+}
+
+export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRules): GuardAnswer {
+  const answers = new Answers(state, rules);
+  if (state.watching && onlyCommands(event)) return answers.deny("watching");
   switch (event.type) {
     case "watch":
-      if (!event.on) return to({ watching: false });
-      if (state.holder !== null && state.holder !== event.who) return deny("lease-taken");
-      return {
-        ...halted({}, underWay ? ["stop"] : []),
-        state: { ...halted({}, []).state, holder: null, pressed: false, trip: "none", watching: true },
-      };
+      return watchStep(answers, event);
+    case "take":
+    case "release":
+    case "press":
+    case "let-go":
+    case "ask":
+    case "confirm":
+    case "reset":
+      return commandStep(answers, event);
+    default:
+      return robotStep(answers, event);
+  }
+}
+
+type EventOf<T extends GuardEvent["type"]> = Extract<GuardEvent, { readonly type: T }>;
+type Commanded = EventOf<"take" | "release" | "press" | "let-go" | "ask" | "confirm" | "reset">;
+
+/** Only to watch from now on, or to command again. */
+function watchStep(answers: Answers, event: EventOf<"watch">): GuardAnswer {
+  const { state, underWay } = answers;
+  if (!event.on) return answers.to({ watching: false });
+  if (state.holder !== null && state.holder !== event.who) return answers.deny("lease-taken");
+  return {
+    ...answers.halted({}, underWay ? ["stop"] : []),
+    state: { ...answers.halted({}, []).state, holder: null, pressed: false, trip: "none", watching: true },
+  };
+}
+
+/** A person has looked: it may go on after its link was lost, or go back to its last safe pose. */
+function confirmStep(answers: Answers, who: string): GuardAnswer {
+  const { state } = answers;
+  if (state.link === "lost") return answers.deny("link-lost");
+  if (state.holder !== who) return answers.deny("no-lease");
+  if (state.link === "unconfirmed") return answers.to({ link: "up" });
+  if (state.trip !== "return-wanted") return answers.to({});
+  return state.motion !== "at-rest"
+    ? answers.deny("busy")
+    : answers.allowed(who, () => answers.to({ motion: "returning", trip: "return-due" }, "return"));
+}
+
+/** What one who commands says. */
+function commandStep(answers: Answers, event: Commanded): GuardAnswer {
+  const { state, rules, underWay } = answers;
+  switch (event.type) {
     case "take":
       return state.holder === null
-        ? to({ holder: event.who, pressed: false })
+        ? answers.to({ holder: event.who, pressed: false })
         : state.holder === event.who
-          ? to({})
-          : deny("lease-taken");
+          ? answers.to({})
+          : answers.deny("lease-taken");
     case "release":
       return state.holder === event.who
-        ? halted({ holder: null, pressed: false }, underWay ? ["stop"] : [])
-        : deny("no-lease");
+        ? answers.halted({ holder: null, pressed: false }, underWay ? ["stop"] : [])
+        : answers.deny("no-lease");
     case "press":
-      return state.holder === event.who ? to({ pressed: true }) : deny("no-lease");
+      return state.holder === event.who ? answers.to({ pressed: true }) : answers.deny("no-lease");
     case "let-go":
-      if (state.holder !== event.who) return deny("no-lease");
-      return rules.deadMan ? halted({ pressed: false }, underWay ? ["stop"] : []) : to({ pressed: false });
+      if (state.holder !== event.who) return answers.deny("no-lease");
+      return rules.deadMan
+        ? answers.halted({ pressed: false }, underWay ? ["stop"] : [])
+        : answers.to({ pressed: false });
     case "ask":
-      return allowed(event.who, () => {
-        if (state.trip !== "none") return deny("return-wanted");
-        return state.motion === "at-rest" ? to({ motion: "moving" }, "forward") : deny("busy");
+      return answers.allowed(event.who, () => {
+        if (state.trip !== "none") return answers.deny("return-wanted");
+        return state.motion === "at-rest" ? answers.to({ motion: "moving" }, "forward") : answers.deny("busy");
       });
     case "confirm":
-      if (state.link === "lost") return deny("link-lost");
-      if (state.holder !== event.who) return deny("no-lease");
-      if (state.link === "unconfirmed") return to({ link: "up" });
-      if (state.trip !== "return-wanted") return to({});
-      return state.motion !== "at-rest"
-        ? deny("busy")
-        : allowed(event.who, () => to({ motion: "returning", trip: "return-due" }, "return"));
-    case "stop":
-      return halted({ emergency: state.emergency || event.emergency }, [event.emergency ? "emergency-stop" : "stop"]);
+      return confirmStep(answers, event.who);
     case "reset":
       // It turns drives on: for the one who commands alone, whoever pressed the emergency stop.
-      if (state.holder !== event.who) return deny(state.holder === null ? "no-lease" : "lease-taken");
-      return state.motion === "at-rest" ? to({ emergency: false }) : deny("still-moving");
+      if (state.holder !== event.who) return answers.deny(state.holder === null ? "no-lease" : "lease-taken");
+      return state.motion === "at-rest" ? answers.to({ emergency: false }) : answers.deny("still-moving");
+  }
+}
+
+/** What the robot and its line do, and a stop, which is anybody's. */
+function robotStep(answers: Answers, event: Exclude<GuardEvent, Commanded | EventOf<"watch">>): GuardAnswer {
+  const { state, rules } = answers;
+  switch (event.type) {
+    case "stop":
+      return answers.halted({ emergency: state.emergency || event.emergency }, [
+        event.emergency ? "emergency-stop" : "stop",
+      ]);
     case "ended":
       if (state.motion === "stopping" && state.trip === "return-due") {
         return mayMove(state, rules)
-          ? to({ motion: "returning" }, "return")
-          : to({ motion: "at-rest", trip: "return-wanted" });
+          ? answers.to({ motion: "returning" }, "return")
+          : answers.to({ motion: "at-rest", trip: "return-wanted" });
       }
-      return to({ motion: "at-rest", trip: state.motion === "returning" ? "none" : state.trip });
+      return answers.to({ motion: "at-rest", trip: state.motion === "returning" ? "none" : state.trip });
     case "too-near":
       // On the way back it is near by nature; at rest nothing needs stopping.
-      return state.motion === "moving" ? to({ motion: "stopping", trip: "return-due" }, "stop") : to({});
+      return state.motion === "moving"
+        ? answers.to({ motion: "stopping", trip: "return-due" }, "stop")
+        : answers.to({});
     case "link-lost":
       // What is only watched was set going by others: a line that breaks here does not stop it there.
-      return state.watching ? to({ link: "lost" }) : halted({ link: "lost" }, ["stop"]);
+      return state.watching ? answers.to({ link: "lost" }) : answers.halted({ link: "lost" }, ["stop"]);
     case "link-back":
-      return state.link === "lost" ? to({ link: state.watching ? "up" : "unconfirmed" }) : to({});
-  }
-
-  function allowed(who: string, then: () => GuardAnswer): GuardAnswer {
-    const denied = whyNot(state, who, rules);
-    return denied ? deny(denied) : then();
+      return state.link === "lost" ? answers.to({ link: state.watching ? "up" : "unconfirmed" }) : answers.to({});
   }
 }
 

@@ -80,6 +80,12 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
   return abbAdapterOf(new AbbWire(options));
 }
 
+interface Failed {
+  readonly why: Refusal;
+  readonly again: boolean;
+}
+const no = (why: Refusal, again: boolean): Failed => ({ why, again });
+
 class AbbWire {
   readonly options: AbbAdapterOptions;
   readonly robot: Robot;
@@ -265,11 +271,72 @@ class AbbWire {
     return null;
   }
 
+  /** Whether the right robot answers, and how it stands; null when it does. */
+  private async strange(own: RwsClient, isMine: () => boolean): Promise<Failed | null> {
+    const type = await own.get("/rw/system/robottype");
+    if (!isMine()) return no(say.linkClosed(this.robot), true);
+    if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404))
+      return no(say.noServices(this.host, this.port, type.sentence), type.kind === "lost" || type.status === 503);
+    const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
+    if (
+      model !== undefined &&
+      !isAbbModel(this.options.model ?? this.robot.vendorSection?.model ?? this.robot.name, model)
+    )
+      return no(say.otherRobot(this.robot, model), false);
+    const now = (this.panel = new PanelState(this.robot));
+    this.sample.signals = now.lines;
+    for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
+      const flaw = this.take(resource, await own.get(PANEL[resource]));
+      if (flaw !== null) return no(say.noServices(this.host, this.port, flaw), true);
+    }
+    const joints = await own.get(JOINTS);
+    const count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
+    if (count === null)
+      return no(
+        say.noServices(
+          this.host,
+          this.port,
+          joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence,
+        ),
+        true,
+      );
+    if (count !== this.n) return no(say.otherAxes(this.robot, count), false);
+    return null;
+  }
+
+  /** Listens to EGM, and waits a little whether somebody speaks; a robot that is only watched is not asked. */
+  private async guided(isMine: () => boolean): Promise<Failed | null> {
+    const watched = this.options.isWatched?.() ?? false;
+    const deaf = watched
+      ? null
+      : await this.guide.open({
+          state: (_, got) => {
+            this.axes = got;
+            if (got !== this.n) {
+              this.breakBy(say.otherAxes(this.robot, got));
+              return;
+            }
+            this.clock.theirs(this.message.sequence, this.message.time_ms);
+            this.tell(this.guide.q_rad, this.guide.isMoving);
+          },
+        });
+    if (deaf) return no(deaf, true);
+    for (
+      const from_s = this.scheduler.now_s();
+      !watched && !this.guides() && this.axes === this.n && isMine() && this.scheduler.now_s() - from_s < GUIDES_S;
+    )
+      await this.pause(WATCH_S);
+    if (!isMine()) return no(say.linkClosed(this.robot), true);
+    if (this.axes !== this.n) return no(say.otherAxes(this.robot, this.axes), false);
+    return null;
+  }
+
   readonly open = async (heard: AdapterEvents): Promise<Opened> => {
     this.close();
     const mine = this.life;
+    const isMine = (): boolean => mine === this.life;
     const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === this.life) this.close();
+      if (isMine()) this.close();
       return { kind: "failed", why, again };
     };
     const client = (): RwsClient =>
@@ -286,34 +353,8 @@ class AbbWire {
         },
       });
     const own = (this.poll = client());
-    const type = await own.get("/rw/system/robottype");
-    if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
-    if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404))
-      return fail(say.noServices(this.host, this.port, type.sentence), type.kind === "lost" || type.status === 503);
-    const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
-    if (
-      model !== undefined &&
-      !isAbbModel(this.options.model ?? this.robot.vendorSection?.model ?? this.robot.name, model)
-    )
-      return fail(say.otherRobot(this.robot, model), false);
-    const now = (this.panel = new PanelState(this.robot));
-    this.sample.signals = now.lines;
-    for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
-      const flaw = this.take(resource, await own.get(PANEL[resource]));
-      if (flaw !== null) return fail(say.noServices(this.host, this.port, flaw), true);
-    }
-    const joints = await own.get(JOINTS);
-    const count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
-    if (count === null)
-      return fail(
-        say.noServices(
-          this.host,
-          this.port,
-          joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence,
-        ),
-        true,
-      );
-    if (count !== this.n) return fail(say.otherAxes(this.robot, count), false);
+    const stranger = await this.strange(own, isMine);
+    if (stranger) return fail(stranger.why, stranger.again);
     // Each of the other lines is there before it is needed.
     this.act = client();
     this.brake = client();
@@ -322,32 +363,8 @@ class AbbWire {
     this.hasLines = this.take("lines", lines) === null;
     if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
     this.axes = this.n;
-    const watched = this.options.isWatched?.() ?? false;
-    const deaf = watched
-      ? null
-      : await this.guide.open({
-          state: (_, got) => {
-            this.axes = got;
-            if (got !== this.n) {
-              this.breakBy(say.otherAxes(this.robot, got));
-              return;
-            }
-            this.clock.theirs(this.message.sequence, this.message.time_ms);
-            this.tell(this.guide.q_rad, this.guide.isMoving);
-          },
-        });
-    if (deaf) return fail(deaf, true);
-    for (
-      const from_s = this.scheduler.now_s();
-      !watched &&
-      !this.guides() &&
-      this.axes === this.n &&
-      mine === this.life &&
-      this.scheduler.now_s() - from_s < GUIDES_S;
-    )
-      await this.pause(WATCH_S);
-    if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
-    if (this.axes !== this.n) return fail(say.otherAxes(this.robot, this.axes), false);
+    const deaf = await this.guided(isMine);
+    if (deaf) return fail(deaf.why, deaf.again);
     this.severed = false;
     this.complaint = "";
     this.events = heard;

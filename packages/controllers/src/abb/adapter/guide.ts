@@ -144,7 +144,8 @@ class Guide extends Execution<Going> {
     this.target_rad.set(this.next_rad);
   }
 
-  take(from: Address, dt_s: number): void {
+  /** Where the robot is now, how fast its fastest axis, and how far from what it was told. */
+  private measured(dt_s: number): { readonly fastest: number; readonly gap_rad: number } {
     let fastest = 0;
     let gap_rad = 0;
     this.before_rad.set(this.q_rad);
@@ -155,30 +156,37 @@ class Guide extends Execution<Going> {
       else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(this.q_rad[i]! - before) / dt_s);
       gap_rad = Math.max(gap_rad, Math.abs(this.target_rad[i]! - this.q_rad[i]!));
     }
-    // Somebody else moves it, or it still brakes from what moved it before.
-    if (!this.moving && !this.fresh && fastest > DRIVEN_RAD_S) {
-      this.target_rad.set(this.q_rad);
-      gap_rad = 0;
-    }
-    this.fresh = false;
+    return { fastest, gap_rad };
+  }
+
+  take(from: Address, dt_s: number): void {
+    const { fastest, gap_rad: behind_rad } = this.measured(dt_s);
     const because = notStreamedBecause(this.message);
+    // Somebody else moves it, or it still brakes from what moved it before.
+    const isDriven = !this.moving && !this.fresh && fastest > DRIVEN_RAD_S;
+    this.fresh = false;
+    // The way is given up where the robot stands: nothing old is told when it listens again.
+    if (isDriven || because !== "") this.target_rad.set(this.q_rad);
+    const gap_rad = isDriven || because !== "" ? 0 : behind_rad;
     if (because !== "") {
-      // The way is given up where the robot stands: nothing old is told when it listens again.
-      this.target_rad.set(this.q_rad);
-      gap_rad = 0;
       if (this.moving) this.ending ??= stopped(notStreamed(this.robot, because));
       if (fastest <= STILL_RAD_S) this.settle(this.ending ?? stopped(notStreamed(this.robot, because)));
-    }
-    if (because === "" && this.moving?.isSent && gap_rad <= THERE_RAD) this.settle(this.ending ?? DONE);
-    this.isInMotion =
-      fastest > STILL_RAD_S ||
-      (this.moving !== null && !this.moving.isSent && this.override > 0 && gap_rad > THERE_RAD);
+    } else if (this.moving?.isSent && gap_rad <= THERE_RAD) this.settle(this.ending ?? DONE);
+    this.isInMotion = fastest > STILL_RAD_S || this.isToMove(gap_rad);
     this.events?.state(this.message, this.message.axes);
-    // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
-    if (!this.socket || (this.severed && this.moving === null)) return;
     // Who does not listen is not answered: an answer that is late would be the first target of a program that has just
     // begun to listen.
-    if (because !== "") return;
+    if (because === "") this.reply(from, dt_s);
+  }
+
+  /** What was told is not where the robot is yet. */
+  private isToMove(gap_rad: number): boolean {
+    return this.moving !== null && !this.moving.isSent && this.override > 0 && gap_rad > THERE_RAD;
+  }
+
+  private reply(from: Address, dt_s: number): void {
+    // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
+    if (!this.socket || (this.severed && this.moving === null)) return;
     this.advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
     this.answer.sequence = this.told = (this.told + 1) >>> 0;
     this.answer.time_ms = this.message.time_ms;

@@ -360,6 +360,34 @@ class Resources {
         )
       : no(404, `There is no file ${path.join("/")}.`);
   }
+
+  /** What stands under `rw`. */
+  ofRobotWare(session: Session, second: string, rest: readonly string[], action: string, form: Form | null): Answer {
+    switch (second) {
+      case "panel":
+        return this.panel(session, rest[0] ?? "", action, form);
+      case "rapid":
+        return this.rapid(session, rest, action, form);
+      case "motionsystem":
+        return this.motion(rest);
+      case "iosystem":
+        return this.signals(session, rest, form);
+      case "mastership":
+        return this.mastership(session, rest, action, form);
+      case "system":
+        return rest[0] === "robottype"
+          ? states(state("sys-robottype", "1", { "robot-type": this.options.model }))
+          : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
+      case "elog":
+        return rest[0] === "0"
+          ? states(...eventStates(this.virtualPendant.events))
+          : states(
+              state("elog-domain-li", "0", { "domain-name": "Common", numevts: this.virtualPendant.events.length }),
+            );
+      default:
+        return no(404, `There is no resource rw/${second}.`);
+    }
+  }
 }
 
 function resourcesOf(own: Resources): (session: Session, request: HttpRequest) => Answer {
@@ -383,30 +411,8 @@ function resourcesOf(own: Resources): (session: Session, request: HttpRequest) =
       return second.startsWith("$")
         ? states(state("ctrl-env", second, { _value: second }))
         : states(state("ctrl", "ctrl", { "ctrl-name": "VIRTUAL", "ctrl-type": "Virtual Controller" }));
-    if (first !== "rw") return no(404, `There is no resource ${first}.`);
-    switch (second) {
-      case "panel":
-        return own.panel(session, rest[0] ?? "", action, form);
-      case "rapid":
-        return own.rapid(session, rest, action, form);
-      case "motionsystem":
-        return own.motion(rest);
-      case "iosystem":
-        return own.signals(session, rest, form);
-      case "mastership":
-        return own.mastership(session, rest, action, form);
-      case "system":
-        return rest[0] === "robottype"
-          ? states(state("sys-robottype", "1", { "robot-type": own.options.model }))
-          : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
-      case "elog":
-        return rest[0] === "0"
-          ? states(...eventStates(own.virtualPendant.events))
-          : states(
-              state("elog-domain-li", "0", { "domain-name": "Common", numevts: own.virtualPendant.events.length }),
-            );
-      default:
-        return no(404, `There is no resource rw/${second}.`);
-    }
+    return first === "rw"
+      ? own.ofRobotWare(session, second, rest, action, form)
+      : no(404, `There is no resource ${first}.`);
   };
 }

@@ -244,6 +244,14 @@ class FanucWire extends DriverStates<Moving> {
     this.running = rmiNumber(status, "RMIMotionStatus") !== 0;
     if (!this.moving) this.next = rmiNumber(status, "NextSequenceID");
     if (this.servos && !this.locked) this.fault = "";
+    const moved = this.j_deg.some((value, i) => Math.abs(value - this.before_deg[i]!) > STANDS_DEG);
+    this.tell(tag_ms, override, moved);
+    if (this.moving?.aborted && !moved) this.settle(stopped(this.wasStopped()));
+    return true;
+  }
+
+  /** The state as the driver is told it. */
+  private tell(tag_ms: number, override: number, moved: boolean): void {
     this.lent.sequence++;
     this.lent.time_s = Number.isNaN(tag_ms) ? this.scheduler.now_s() : tag_ms / 1000;
     jointsOfAxes(this.joints!, this.j_deg, this.lent.q_rad);
@@ -251,7 +259,6 @@ class FanucWire extends DriverStates<Moving> {
     this.lent.override = this.paused ? 0 : Number.isNaN(override) ? this.lent.override : override / 100;
     this.lent.safety = this.locked ? "emergency-stop" : this.servos ? "normal" : "protective-stop";
     this.lent.message = this.fault !== "" ? this.fault : this.servos ? "" : "The servos are off.";
-    const moved = this.j_deg.some((value, i) => Math.abs(value - this.before_deg[i]!) > STANDS_DEG);
     this.lent.moving =
       (this.moving !== null &&
         !this.moving.isText &&
@@ -260,8 +267,6 @@ class FanucWire extends DriverStates<Moving> {
         !this.moving.aborted &&
         !this.moving.outcome) ||
       moved;
-    if (this.moving?.aborted && !moved) this.settle(stopped(this.wasStopped()));
-    return true;
   }
 
   poll(isMine: () => boolean): void {

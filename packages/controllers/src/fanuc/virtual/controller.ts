@@ -351,7 +351,6 @@ class FanucControllerState {
 
   command(name: string, fields: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> {
     const only = (ErrorID: number): { ErrorID: number } => ({ ErrorID });
-    const TimeTag = Math.round(1000 * this.time_s);
     switch (name) {
       case "FRC_Initialize": {
         const why = this.whyNot();
@@ -378,6 +377,16 @@ class FanucControllerState {
       case "FRC_Reset":
         this.complaint = "";
         return only(this.machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
+      default:
+        return this.told(name) ?? this.line(name, fields);
+    }
+  }
+
+  /** What only tells; null for what is none of it. */
+  private told(name: string): Readonly<Record<string, unknown>> | null {
+    const only = (ErrorID: number): { ErrorID: number } => ({ ErrorID });
+    const TimeTag = Math.round(1000 * this.time_s);
+    switch (name) {
       case "FRC_ReadError":
         return {
           ...only(RMI_ERROR.ok),
@@ -420,6 +429,15 @@ class FanucControllerState {
           Group: 1,
         };
       }
+      default:
+        return null;
+    }
+  }
+
+  /** Override, frames and lines. */
+  private line(name: string, fields: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> {
+    const only = (ErrorID: number): { ErrorID: number } => ({ ErrorID });
+    switch (name) {
       case "FRC_SetOverRide":
         return only(this.machine.setOverride(rmiNumber(fields, "Value")) ? RMI_ERROR.ok : RMI_ERROR.override);
       case "FRC_SetUFrameUTool":

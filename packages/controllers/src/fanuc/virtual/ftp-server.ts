@@ -179,92 +179,98 @@ class FtpSession {
       this.say(226, "Sent.");
     });
   }
+
+  /** What is answered to anybody, and the door for the rest; null for who is logged in. False ends the session. */
+  greeted({ name }: FtpCommand): boolean | null {
+    switch (name) {
+      case "USER":
+        this.isIn = true;
+        this.say(230, "User logged in.");
+        return true;
+      case "PASS":
+        this.isIn = true;
+        this.say(230, "User logged in.");
+        return true;
+      case "QUIT":
+        this.say(221, "Goodbye.");
+        return false;
+      case "NOOP":
+      case "TYPE":
+      case "MODE":
+      case "STRU":
+        this.say(200, "Well.");
+        return true;
+      case "SYST":
+        this.say(215, "UNIX emulated by a virtual controller.");
+        return true;
+      default:
+        break;
+    }
+    if (this.isIn) return null;
+    this.say(530, "Log in first.");
+    return true;
+  }
+
+  /** What is asked by somebody who is logged in. */
+  obey({ name, rest }: FtpCommand): boolean {
+    const file = rest
+      .split(/[\\/:]/)
+      .at(-1)!
+      .toUpperCase();
+    switch (name) {
+      case "PWD":
+      case "XPWD":
+        this.say(257, '"MD:\\" is the device.');
+        return true;
+      case "CWD":
+        if (/^(md:?[\\/]?|[\\/]?)$/i.test(rest)) this.say(250, "MD:");
+        else this.say(550, "There is the device MD: only.");
+        return true;
+      case "PASV":
+        void this.passive();
+        return true;
+      case "STOR":
+        this.store(file);
+        return true;
+      case "RETR": {
+        const text = this.programs.read(file);
+        if (text === undefined) this.say(550, `There is no file ${file}.`);
+        else this.send(text);
+        return true;
+      }
+      case "SIZE": {
+        const text = this.programs.read(file);
+        if (text === undefined) this.say(550, `There is no file ${file}.`);
+        else this.say(213, String(text.length));
+        return true;
+      }
+      case "DELE":
+        if (this.programs.remove(file)) this.say(250, "Deleted.");
+        else this.say(550, `There is no file ${file}.`);
+        return true;
+      case "NLST":
+        this.send(this.programs.names.map(each => `${each}\r\n`).join(""));
+        return true;
+      case "LIST":
+        this.send(
+          this.programs.names
+            .map(
+              each =>
+                `-rw-rw-rw- 1 noone nogroup ${String(this.programs.read(each)!.length).padStart(8)} Jan  1 00:00 ${each.toLowerCase()}\r\n`,
+            )
+            .join(""),
+        );
+        return true;
+      default:
+        this.say(502, `${name} is not carried out here.`);
+        return true;
+    }
+  }
 }
 
 function sessionOf(own: FtpSession): { take(command: FtpCommand): boolean; close(): void } {
   return {
-    take({ name, rest }) {
-      const file = rest
-        .split(/[\\/:]/)
-        .at(-1)!
-        .toUpperCase();
-      switch (name) {
-        case "USER":
-          own.isIn = true;
-          own.say(230, "User logged in.");
-          return true;
-        case "PASS":
-          own.isIn = true;
-          own.say(230, "User logged in.");
-          return true;
-        case "QUIT":
-          own.say(221, "Goodbye.");
-          return false;
-        case "NOOP":
-        case "TYPE":
-        case "MODE":
-        case "STRU":
-          own.say(200, "Well.");
-          return true;
-        case "SYST":
-          own.say(215, "UNIX emulated by a virtual controller.");
-          return true;
-        default:
-          break;
-      }
-      if (!own.isIn) {
-        own.say(530, "Log in first.");
-        return true;
-      }
-      switch (name) {
-        case "PWD":
-        case "XPWD":
-          own.say(257, '"MD:\\" is the device.');
-          return true;
-        case "CWD":
-          if (/^(md:?[\\/]?|[\\/]?)$/i.test(rest)) own.say(250, "MD:");
-          else own.say(550, "There is the device MD: only.");
-          return true;
-        case "PASV":
-          void own.passive();
-          return true;
-        case "STOR":
-          own.store(file);
-          return true;
-        case "RETR": {
-          const text = own.programs.read(file);
-          if (text === undefined) own.say(550, `There is no file ${file}.`);
-          else own.send(text);
-          return true;
-        }
-        case "SIZE": {
-          const text = own.programs.read(file);
-          if (text === undefined) own.say(550, `There is no file ${file}.`);
-          else own.say(213, String(text.length));
-          return true;
-        }
-        case "DELE":
-          if (own.programs.remove(file)) own.say(250, "Deleted.");
-          else own.say(550, `There is no file ${file}.`);
-          return true;
-        case "NLST":
-          own.send(own.programs.names.map(each => `${each}\r\n`).join(""));
-          return true;
-        case "LIST":
-          own.send(
-            own.programs.names
-              .map(
-                each =>
-                  `-rw-rw-rw- 1 noone nogroup ${String(own.programs.read(each)!.length).padStart(8)} Jan  1 00:00 ${each.toLowerCase()}\r\n`,
-              )
-              .join(""),
-          );
-          return true;
-        default:
-          own.say(502, `${name} is not carried out here.`);
-          return true;
-      }
-    },
+    take: command => own.greeted(command) ?? own.obey(command),
     close() {
       own.isOver = true;
       own.shut();

@@ -43,68 +43,77 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
       return { kind: "nothing" };
     case "FRC_JointMotionJRep":
     case "FRC_LinearMotionJRep":
-    case "FRC_JointRelativeJRep": {
-      const speed = speedOf(fields, name.startsWith("FRC_Linear"));
-      const j_deg = new Float64Array(JOINTS);
-      if (!speed) return error(RMI_ERROR.value);
-      if (!rmiJoints(fields, j_deg)) return error(RMI_ERROR.position);
-      return {
-        kind: "step",
-        make: q_rad => {
-          const target = j_deg.slice();
-          if (name === "FRC_JointRelativeJRep")
-            axesOfJoints(joints, q_rad, new Float64Array(JOINTS)).forEach((value, i) => {
-              target[i]! += value;
-            });
-          return {
-            ...speed,
-            path: name.startsWith("FRC_Linear") ? "lin" : "ptp",
-            target: { q: [...jointsOfAxes(joints, target, new Float64Array(JOINTS))] },
-          };
-        },
-      };
-    }
+    case "FRC_JointRelativeJRep":
+      return toAxes(name, fields, joints);
     case "FRC_LinearMotion":
     case "FRC_JointMotion":
-    case "FRC_LinearRelative": {
-      const speed = speedOf(fields, name.startsWith("FRC_Linear"));
-      const part = rmiPart(fields, "Position");
-      const v = PLACE.map(axis => rmiNumber(part, axis));
-      if (!speed) return error(RMI_ERROR.value);
-      if (!v.every(value => Number.isFinite(value))) return error(RMI_ERROR.position);
-      const isJoint = name === "FRC_JointMotion";
-      const asked = name === "FRC_LinearRelative" ? null : askedConfiguration(fields);
-      const there = compose(
-        robot.baseFromVendorWorld as Pose,
-        pose([v[0]! / 1000, v[1]! / 1000, v[2]! / 1000], fromFanucWpr(v[3]!, v[4]!, v[5]!)),
-      );
-      if (asked === undefined) return error(RMI_ERROR.position);
-      if (asked && isJoint && !jointsIn(robot, there as Pose<"base", "flange">, asked))
-        return error(RMI_ERROR.position);
-      return {
-        kind: "step",
-        make: q_rad => {
-          const at: Pose = name === "FRC_LinearRelative" ? moved(robot, q_rad, v) : there;
-          const q = asked && isJoint ? jointsIn(robot, at as Pose<"base", "flange">, asked, q_rad) : undefined;
-          if (q) return { ...speed, path: "ptp", target: { q } };
-          // The base is the world here, and the flange its tool. A line arrives in the posture that it is asked for, or
-          // not at all.
-          return {
-            ...speed,
-            path: isJoint ? "ptp" : "lin",
-            target: {
-              pose: at as Pose<"frame", "tcp">,
-              frame: "world",
-              tool: "flange",
-              ...(asked ? { branch: branchOfConfiguration(robot, asked) } : {}),
-            },
-          };
-        },
-      };
-    }
+    case "FRC_LinearRelative":
+      return toPlace(name, fields, robot);
     default:
       return error(RMI_ERROR.instruction);
   }
+}
+
+type Fields = RmiPacket["fields"];
+
+/** A motion whose target is said in axes. */
+function toAxes(name: string, fields: Fields, joints: AxisCounting): Instruction {
+  const speed = speedOf(fields, name.startsWith("FRC_Linear"));
+  const j_deg = new Float64Array(JOINTS);
+  if (!speed) return error(RMI_ERROR.value);
+  if (!rmiJoints(fields, j_deg)) return error(RMI_ERROR.position);
+  return {
+    kind: "step",
+    make: q_rad => {
+      const target = j_deg.slice();
+      if (name === "FRC_JointRelativeJRep")
+        axesOfJoints(joints, q_rad, new Float64Array(JOINTS)).forEach((value, i) => {
+          target[i]! += value;
+        });
+      return {
+        ...speed,
+        path: name.startsWith("FRC_Linear") ? "lin" : "ptp",
+        target: { q: [...jointsOfAxes(joints, target, new Float64Array(JOINTS))] },
+      };
+    },
+  };
+}
+
+/** A motion whose target is a place. */
+function toPlace(name: string, fields: Fields, robot: Robot): Instruction {
+  const speed = speedOf(fields, name.startsWith("FRC_Linear"));
+  const part = rmiPart(fields, "Position");
+  const v = PLACE.map(axis => rmiNumber(part, axis));
+  if (!speed) return error(RMI_ERROR.value);
+  if (!v.every(value => Number.isFinite(value))) return error(RMI_ERROR.position);
+  const isJoint = name === "FRC_JointMotion";
+  const asked = name === "FRC_LinearRelative" ? null : askedConfiguration(fields);
+  const there = compose(
+    robot.baseFromVendorWorld as Pose,
+    pose([v[0]! / 1000, v[1]! / 1000, v[2]! / 1000], fromFanucWpr(v[3]!, v[4]!, v[5]!)),
+  );
+  if (asked === undefined) return error(RMI_ERROR.position);
+  if (asked && isJoint && !jointsIn(robot, there as Pose<"base", "flange">, asked)) return error(RMI_ERROR.position);
+  return {
+    kind: "step",
+    make: q_rad => {
+      const at: Pose = name === "FRC_LinearRelative" ? moved(robot, q_rad, v) : there;
+      const q = asked && isJoint ? jointsIn(robot, at as Pose<"base", "flange">, asked, q_rad) : undefined;
+      if (q) return { ...speed, path: "ptp", target: { q } };
+      // The base is the world here, and the flange its tool. A line arrives in the posture that it is asked for, or
+      // not at all.
+      return {
+        ...speed,
+        path: isJoint ? "ptp" : "lin",
+        target: {
+          pose: at as Pose<"frame", "tcp">,
+          frame: "world",
+          tool: "flange",
+          ...(asked ? { branch: branchOfConfiguration(robot, asked) } : {}),
+        },
+      };
+    },
+  };
 }
 
 /** Along and about the axes of the world. */

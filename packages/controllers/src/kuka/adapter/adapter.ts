@@ -191,6 +191,22 @@ class KukaWire extends DriverStates<Waiting> {
     this.polling = false;
   }
 
+  /** Why a robot of that model is another one; null when it is ours. */
+  private async strange(
+    own: C3Client,
+    model: string,
+  ): Promise<{ readonly why: Refusal; readonly again: boolean } | null> {
+    if (this.options.model === undefined ? !isKukaModel(this.robot, model) : this.options.model !== model) {
+      // Told twice: a name that was spoilt on its way is no other robot.
+      const again = await own.ask({ kind: "read", wide: true, name: "$MODEL_NAME[]" });
+      return {
+        why: say.otherRobot(this.robot, model === "" ? "robot without a name" : model),
+        again: again?.kind !== "value" || textIn(again.value) !== model,
+      };
+    }
+    return null;
+  }
+
   readonly open = async (events: AdapterEvents): Promise<Opened> => {
     const isMine = this.connecting();
     const fail = (why: Refusal, again: boolean): Opened => this.failed(isMine, why, again);
@@ -221,14 +237,8 @@ class KukaWire extends DriverStates<Waiting> {
     if (first.kind !== "values") return fail(say.oldProxy, false);
     const model = textIn(first.items[0]?.value ?? "");
     const version = first.items[1]!;
-    if (this.options.model === undefined ? !isKukaModel(this.robot, model) : this.options.model !== model) {
-      // Told twice: a name that was spoilt on its way is no other robot.
-      const again = await own.ask({ kind: "read", wide: true, name: "$MODEL_NAME[]" });
-      return fail(
-        say.otherRobot(this.robot, model === "" ? "robot without a name" : model),
-        again?.kind !== "value" || textIn(again.value) !== model,
-      );
-    }
+    const stranger = await this.strange(own, model);
+    if (stranger) return fail(stranger.why, stranger.again);
     const now = (this.state = new KukaState(this.program, this.axes, this.lines, this.gripper));
     const wired = (i: number): number => {
       const n = numberIn(first.items[i]?.value ?? "");

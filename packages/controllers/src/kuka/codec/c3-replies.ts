@@ -91,6 +91,13 @@ export function readC3Reply(type: number, payload: Uint8Array): C3Reply {
   return from.whole ? reply : { kind: "malformed" };
 }
 
+/** Numbers of the bits that are set, the last byte first. */
+function bitsOf(field: Uint8Array): number[] {
+  const set: number[] = [];
+  for (let each = 0; each < 256; each++) if (((field[31 - (each >> 3)] ?? 0) >> (each & 7)) % 2 === 1) set.push(each);
+  return set;
+}
+
 function bodyOf(type: number, from: C3Fields, error: number): C3Reply {
   switch (type) {
     case C3_TYPE.readAscii:
@@ -108,13 +115,8 @@ function bodyOf(type: number, from: C3Fields, error: number): C3Reply {
     }
     case C3_TYPE.control:
       return { kind: "control", command: from.u8(), error };
-    case C3_TYPE.features: {
-      const types: number[] = [];
-      const field = from.raw(32);
-      for (let each = 0; each < 256; each++)
-        if (((field[31 - (each >> 3)] ?? 0) >> (each & 7)) % 2 === 1) types.push(each);
-      return { kind: "features", types, error };
-    }
+    case C3_TYPE.features:
+      return { kind: "features", types: bitsOf(from.raw(32)), error };
     case C3_TYPE.info: {
       const version = [from.u8(), from.u8(), from.u8()] as const;
       from.raw(16);

@@ -40,6 +40,49 @@ export const OVERWRITE = 64;
 const MODULE = 32;
 const SOURCE_AND_DATA = 6;
 
+type FileRequest = Extract<C3Request, { readonly kind: `${"file" | "put" | "get"}-${string}` | "unknown" }>;
+
+/** A file that is made, deleted, written or read, part by part. */
+function writeFileRequest(out: C3Writer, tag: number, request: FileRequest): Uint8Array | null {
+  switch (request.kind) {
+    case "file-create":
+      return out
+        .begin(tag, C3_TYPE.fileCreate)
+        .u16(MODULE)
+        .u8(SOURCE_AND_DATA)
+        .u8(1)
+        .text(request.name, true)
+        .text("", true)
+        .take();
+    case "file-delete":
+      return out.begin(tag, C3_TYPE.fileDelete).u8(1).text(request.name, true).take();
+    case "put-begin":
+      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.begin).u32(request.size).take();
+    case "put-size":
+      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.size).take();
+    case "put-data":
+      return out
+        .begin(tag, C3_TYPE.fileWrite)
+        .u8(FILE_STEP.data)
+        .u32(request.offset)
+        .u32(request.data.length)
+        .raw(request.data)
+        .take();
+    case "put-end":
+      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.end).u32(request.flags).text(request.name, true).take();
+    case "get-begin":
+      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.begin).u32(0).text(request.name, true).take();
+    case "get-size":
+      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.size).take();
+    case "get-data":
+      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.data).u32(request.offset).u32(request.most).take();
+    case "get-end":
+      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.end).take();
+    case "unknown":
+      return out.begin(tag, request.type).take();
+  }
+}
+
 /** One message into `out`; null when it does not fit into one. The bytes are lent until `out` is used again. */
 export function writeC3Request(
   out: C3Writer,
@@ -85,41 +128,8 @@ export function writeC3Request(
       return out.begin(tag, C3_TYPE.features).take();
     case "confirm-all":
       return out.begin(tag, C3_TYPE.confirmAll).take();
-    case "file-create":
-      return out
-        .begin(tag, C3_TYPE.fileCreate)
-        .u16(MODULE)
-        .u8(SOURCE_AND_DATA)
-        .u8(1)
-        .text(request.name, true)
-        .text("", true)
-        .take();
-    case "file-delete":
-      return out.begin(tag, C3_TYPE.fileDelete).u8(1).text(request.name, true).take();
-    case "put-begin":
-      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.begin).u32(request.size).take();
-    case "put-size":
-      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.size).take();
-    case "put-data":
-      return out
-        .begin(tag, C3_TYPE.fileWrite)
-        .u8(FILE_STEP.data)
-        .u32(request.offset)
-        .u32(request.data.length)
-        .raw(request.data)
-        .take();
-    case "put-end":
-      return out.begin(tag, C3_TYPE.fileWrite).u8(FILE_STEP.end).u32(request.flags).text(request.name, true).take();
-    case "get-begin":
-      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.begin).u32(0).text(request.name, true).take();
-    case "get-size":
-      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.size).take();
-    case "get-data":
-      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.data).u32(request.offset).u32(request.most).take();
-    case "get-end":
-      return out.begin(tag, C3_TYPE.fileRead).u8(FILE_STEP.end).take();
-    case "unknown":
-      return out.begin(tag, request.type).take();
+    default:
+      return writeFileRequest(out, tag, request);
   }
 }
 

@@ -150,6 +150,20 @@ export function rsiAxes(values: ReadonlyMap<string, string>, element: string, ou
 const child = (of: XmlElement | undefined, name: string): XmlElement | undefined =>
   of?.children.find(each => each.name === name);
 
+/** One element, or why it is none. */
+function elementOf(attributes: ReadonlyMap<string, string>, side: string): RsiElement | string {
+  const tag = attributes.get("TAG") ?? "";
+  const type = attributes.get("TYPE") ?? "";
+  const said = attributes.get("INDX") ?? "";
+  const index = said === "INTERNAL" ? said : Number(said);
+  if (!/^[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?$/.test(tag)) return `${side}: “${tag}” is no tag.`;
+  if (type !== "BOOL" && type !== "STRING" && type !== "LONG" && type !== "DOUBLE")
+    return `${side}: ${tag} has the type “${type}”.`;
+  if (index !== "INTERNAL" && !(Number.isInteger(index) && index >= 1 && index <= CHANNELS))
+    return `${side}: INDX of ${tag} is INTERNAL or 1 to ${CHANNELS}, not “${said}”.`;
+  return { tag, type, index, holdOn: attributes.get("HOLDON") === "1" ? 1 : 0 };
+}
+
 /** The file that says what is sent and received. */
 export function readRsiConfig(text: string): RsiConfigRead {
   const read = readXml(text);
@@ -166,16 +180,9 @@ export function readRsiConfig(text: string): RsiConfigRead {
   for (const side of ["SEND", "RECEIVE"]) {
     const list: RsiElement[] = [];
     for (const { attributes } of child(child(read.root, side), "ELEMENTS")?.children ?? []) {
-      const tag = attributes.get("TAG") ?? "";
-      const type = attributes.get("TYPE") ?? "";
-      const said = attributes.get("INDX") ?? "";
-      const index = said === "INTERNAL" ? said : Number(said);
-      if (!/^[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?$/.test(tag)) return fail(`${side}: “${tag}” is no tag.`);
-      if (type !== "BOOL" && type !== "STRING" && type !== "LONG" && type !== "DOUBLE")
-        return fail(`${side}: ${tag} has the type “${type}”.`);
-      if (index !== "INTERNAL" && !(Number.isInteger(index) && index >= 1 && index <= CHANNELS))
-        return fail(`${side}: INDX of ${tag} is INTERNAL or 1 to ${CHANNELS}, not “${said}”.`);
-      list.push({ tag, type, index, holdOn: attributes.get("HOLDON") === "1" ? 1 : 0 });
+      const element = elementOf(attributes, side);
+      if (typeof element === "string") return fail(element);
+      list.push(element);
     }
     lists.push(list);
   }

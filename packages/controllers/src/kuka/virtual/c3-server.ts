@@ -194,6 +194,14 @@ class C3Session {
           code(text !== null && this.options.programs.write(request.name, text) === null),
         );
       }
+      default:
+        return this.fetched(request);
+    }
+  }
+
+  /** A file that is read from here, part by part. */
+  private fetched(request: Extract<C3Request, { readonly kind: `get-${string}` }>): Answer {
+    switch (request.kind) {
       case "get-begin": {
         const text = this.options.programs.read(request.name);
         this.got = text === undefined ? null : Uint8Array.from(text, sign => sign.charCodeAt(0) & 255);

@@ -280,6 +280,12 @@ class Cs7Wire extends DriverStates<Moving> {
     if (this.moving && this.phase === "executing" && words !== "") this.end(this.moving, stopped(taken(words)));
     if (this.moving?.begun && this.done === this.moving.id) this.moving.over = true;
     this.look(stands);
+    this.shown(words, stands);
+    return true;
+  }
+
+  /** The state as the driver is told it. */
+  private shown(words: string, stands: boolean): void {
     jointsOfAxes(this.joints!, this.j_deg, this.lent.q_rad);
     this.lent.sequence++;
     this.lent.time_s = this.scheduler.now_s() - this.begun_s;
@@ -291,7 +297,6 @@ class Cs7Wire extends DriverStates<Moving> {
         : "protective-stop";
     this.lent.message = words;
     this.lent.moving = !stands || (this.moving !== null && !this.moving.held && this.phase === "executing");
-    return true;
   }
 
   poll(isMine: () => boolean): void {

@@ -198,6 +198,114 @@ class Monitor {
     );
     return { text: "", blocks: true };
   }
+
+  /** What a command of the monitor is answered; null where it is none. */
+  command(command: string, rest: string): Said | null {
+    return this.listed(command, rest) ?? this.ofPower(command, rest) ?? this.ofProgram(command, rest);
+  }
+  private listed(command: string, rest: string): Said | null {
+    switch (command) {
+      case "WHERE":
+        return { text: whereText(this.place(), axesOfJoints(this.joints, this.now_rad, this.shown), this.digits) };
+      case "LISTR":
+        return this.listReals(rest);
+      case "LISTL":
+        return {
+          text: `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${[...this.programs.points].map(([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`).join("")}`,
+        };
+      case "DIRECTORY":
+        return {
+          text:
+            this.programs.names
+              .map(name => `.PROGRAM ${name}`)
+              .join("\r\n")
+              .replace(/^/gm, " ") + "\r\n",
+        };
+      case "STATUS":
+        return {
+          text: `Robot ${stateName(this.machine.state)}}, speed ${this.machine.speed}, task 1 ${this.programs.isRunning ? "executing" : "idle"}\r\n`,
+        };
+      case "IO":
+        return {
+          text: Array.from(
+            { length: 8 },
+            (_, i) =>
+              `out_${i + 1} ${this.arm.signals.read(`out_${i + 1}`) === true ? 1 : 0}   in_${1001 + i} ${this.arm.signals.read(`in_${1001 + i}`) === true ? 1 : 0}\r\n`,
+          ).join(""),
+        };
+      default:
+        return null;
+    }
+  }
+  private ofPower(command: string, rest: string): Said | null {
+    switch (command) {
+      case "SPEED":
+        return said(this.machine.setSpeed(Number(rest.split(/\s/)[0])) ? null : "*Illegal value*");
+      case "ENABLE":
+      case "DISABLE": {
+        if (!"POWER".startsWith(rest.toUpperCase().slice(0, 5)) || rest === "")
+          return said("*Illegal monitor command*");
+        if (command === "DISABLE") {
+          this.machine.off();
+          return said(null);
+        }
+        const why = this.machine.ask();
+        return said(why ?? (this.machine.blinking ? "Press HIGH POWER button to enable power" : null));
+      }
+      case "PANIC":
+        this.machine.off();
+        return said(null);
+      case "CALIBRATE":
+        return {
+          text: "Are you sure (Y/N)? ",
+          asks: answer => {
+            if (!/^y/i.test(answer.trim())) return said(null);
+            if (!this.machine.isPowered) return said("*Robot power off*");
+            this.machine.calibrated = true;
+            return said(null);
+          },
+        };
+      default:
+        return null;
+    }
+  }
+  private ofProgram(command: string, rest: string): Said | null {
+    switch (command) {
+      case "EXECUTE": {
+        const [, name = ""] = new RegExp(`^(?:[0-9]+\\s*,?\\s*)?(${NAME})`).exec(rest) ?? [];
+        return said(name === "" ? "*Undefined program or variable name*" : this.programs.execute(name));
+      }
+      case "ABORT":
+        this.programs.abort();
+        return said(null);
+      case "PROCEED":
+        return said(this.programs.proceed());
+      case "LOAD":
+        return said(this.programs.load(rest));
+      case "SIGNAL": {
+        const lines = rest.split(",").map(Number);
+        if (lines.some(n => !Number.isInteger(n) || n === 0 || Math.abs(n) > 512))
+          return said("*Illegal digital signal*");
+        for (const n of lines) this.arm.signals.write(`out_${Math.abs(n)}`, n > 0);
+        return said(null);
+      }
+      case "HERE": {
+        if (!new RegExp(`^#?${NAME}$`).test(rest)) return said("*Illegal monitor command*");
+        const values = rest.startsWith("#")
+          ? Array.from(axesOfJoints(this.joints, this.now_rad, this.shown))
+          : this.place();
+        const text = values.map(each => each.toFixed(3).padStart(10)).join("");
+        const why = rest.startsWith("#")
+          ? this.programs.setPoint(rest, values)
+          : this.programs.define(`SET ${rest} = ${this.here()}`);
+        return why ? said(why) : { text: `${text}\r\nChange? `, asks: () => said(null) };
+      }
+      case "DO":
+        return this.machine.state === STATE.fatal ? said("*Robot power off*") : this.execute(rest);
+      default:
+        return null;
+    }
+  }
 }
 
 function monitorOf(own: Monitor): (line: string) => Said {
@@ -207,94 +315,6 @@ function monitorOf(own: Monitor): (line: string) => Said {
     const matching = COMMANDS.filter(command => command.startsWith(word.toUpperCase()));
     const command =
       matching.find(each => each === word.toUpperCase()) ?? (matching.length === 1 ? matching[0] : undefined);
-    switch (command) {
-      case "WHERE":
-        return { text: whereText(own.place(), axesOfJoints(own.joints, own.now_rad, own.shown), own.digits) };
-      case "LISTR":
-        return own.listReals(rest);
-      case "LISTL":
-        return {
-          text: `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${[...own.programs.points].map(([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`).join("")}`,
-        };
-      case "SPEED":
-        return said(own.machine.setSpeed(Number(rest.split(/\s/)[0])) ? null : "*Illegal value*");
-      case "ENABLE":
-      case "DISABLE": {
-        if (!"POWER".startsWith(rest.toUpperCase().slice(0, 5)) || rest === "")
-          return said("*Illegal monitor command*");
-        if (command === "DISABLE") {
-          own.machine.off();
-          return said(null);
-        }
-        const why = own.machine.ask();
-        return said(why ?? (own.machine.blinking ? "Press HIGH POWER button to enable power" : null));
-      }
-      case "PANIC":
-        own.machine.off();
-        return said(null);
-      case "CALIBRATE":
-        return {
-          text: "Are you sure (Y/N)? ",
-          asks: answer => {
-            if (!/^y/i.test(answer.trim())) return said(null);
-            if (!own.machine.isPowered) return said("*Robot power off*");
-            own.machine.calibrated = true;
-            return said(null);
-          },
-        };
-      case "EXECUTE": {
-        const [, name = ""] = new RegExp(`^(?:[0-9]+\\s*,?\\s*)?(${NAME})`).exec(rest) ?? [];
-        return said(name === "" ? "*Undefined program or variable name*" : own.programs.execute(name));
-      }
-      case "ABORT":
-        own.programs.abort();
-        return said(null);
-      case "PROCEED":
-        return said(own.programs.proceed());
-      case "LOAD":
-        return said(own.programs.load(rest));
-      case "DIRECTORY":
-        return {
-          text:
-            own.programs.names
-              .map(name => `.PROGRAM ${name}`)
-              .join("\r\n")
-              .replace(/^/gm, " ") + "\r\n",
-        };
-      case "STATUS":
-        return {
-          text: `Robot ${stateName(own.machine.state)}}, speed ${own.machine.speed}, task 1 ${own.programs.isRunning ? "executing" : "idle"}\r\n`,
-        };
-      case "SIGNAL": {
-        const lines = rest.split(",").map(Number);
-        if (lines.some(n => !Number.isInteger(n) || n === 0 || Math.abs(n) > 512))
-          return said("*Illegal digital signal*");
-        for (const n of lines) own.arm.signals.write(`out_${Math.abs(n)}`, n > 0);
-        return said(null);
-      }
-      case "IO":
-        return {
-          text: Array.from(
-            { length: 8 },
-            (_, i) =>
-              `out_${i + 1} ${own.arm.signals.read(`out_${i + 1}`) === true ? 1 : 0}   in_${1001 + i} ${own.arm.signals.read(`in_${1001 + i}`) === true ? 1 : 0}\r\n`,
-          ).join(""),
-        };
-      case "HERE": {
-        if (!new RegExp(`^#?${NAME}$`).test(rest)) return said("*Illegal monitor command*");
-        const values = rest.startsWith("#")
-          ? Array.from(axesOfJoints(own.joints, own.now_rad, own.shown))
-          : own.place();
-        const text = values.map(each => each.toFixed(3).padStart(10)).join("");
-        const why = rest.startsWith("#")
-          ? own.programs.setPoint(rest, values)
-          : own.programs.define(`SET ${rest} = ${own.here()}`);
-        return why ? said(why) : { text: `${text}\r\nChange? `, asks: () => said(null) };
-      }
-      case "DO":
-        return own.machine.state === STATE.fatal ? said("*Robot power off*") : own.execute(rest);
-      default:
-        return said("*Illegal monitor command*");
-    }
+    return (command && own.command(command, rest)) ?? said("*Illegal monitor command*");
   };
 }

@@ -179,6 +179,28 @@ class UrWire extends Execution<Underway> {
     return answer.kind === "connected" ? answer.stream : answer.sentence;
   }
 
+  /** Tells the program on the robot that somebody is there, and asks who has the robot. */
+  private keepAlive(at: Open, watched: boolean, lost: (sentence: string) => void): void {
+    at.stops.push(
+      this.scheduler.every(BEAT_S, () => {
+        at.orders.beat();
+        at.rtde.send(GROUPS.heartbeat);
+        if (!watched && ++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
+      }),
+    );
+    let asking = false;
+    at.stops.push(
+      this.scheduler.every(ASK_REMOTE_S, () => {
+        if (asking) return;
+        asking = true;
+        void at.dashboard.ask("is in remote control").then(answer => {
+          asking = false;
+          if (answer !== null) at.remote = answer !== "false";
+        });
+      }),
+    );
+  }
+
   readonly attempt = async (events: AdapterEvents): Promise<Opened> => {
     const watched = this.options.isWatched?.() ?? false;
     const mine = ++this.life;
@@ -255,25 +277,7 @@ class UrWire extends Execution<Underway> {
       echo: NaN,
     };
     this.open = at;
-    at.stops.push(
-      this.scheduler.every(BEAT_S, () => {
-        if (!at) return;
-        at.orders.beat();
-        at.rtde.send(GROUPS.heartbeat);
-        if (!watched && ++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
-      }),
-    );
-    let asking = false;
-    at.stops.push(
-      this.scheduler.every(ASK_REMOTE_S, () => {
-        if (asking) return;
-        asking = true;
-        void dashboard.ask("is in remote control").then(answer => {
-          asking = false;
-          if (at && answer !== null) at.remote = answer !== "false";
-        });
-      }),
-    );
+    this.keepAlive(at, watched, lost);
     if (!(await this.until(() => reading.robotMode !== 0 || reading.runtime !== 0, STALE_S * 10))) {
       this.closeAll();
       return { kind: "failed", why: words.noAnswer("RTDE sends no states."), again: true };
@@ -332,6 +336,28 @@ class UrWire extends Execution<Underway> {
     return answer?.startsWith(wanted) === true ? null : words.dashboardSays(command, answer);
   }
 
+  /** Takes a safety stop away that can be taken away from here; why not. */
+  private async freed(at: Open, wanted: () => boolean): Promise<Refusal | null> {
+    const { reading } = at;
+    const { safetyMode } = reading;
+    if (safetyMode === SAFETY_MODE.PROTECTIVE_STOP) {
+      const answer = await at.dashboard.ask("unlock protective stop");
+      if (answer === REPLIES.tooSoon) return words.tooSoon(this.robot);
+      if (answer !== REPLIES.unlocking) return words.dashboardSays("unlock protective stop", answer);
+    } else if (safetyMode === SAFETY_MODE.FAULT || safetyMode === SAFETY_MODE.VIOLATION) {
+      const why = await this.tell(at, "restart safety", "Restarting");
+      if (why) return why;
+    }
+    if (
+      !(await this.until(
+        () => !wanted() || reading.safetyMode === SAFETY_MODE.NORMAL || reading.safetyMode === SAFETY_MODE.REDUCED,
+        PROGRAM_S,
+      ))
+    )
+      return words.tookTooLong(this.robot, "free of its safety stop", PROGRAM_S);
+    return null;
+  }
+
   readonly reset = async (wanted: () => boolean): Promise<CommandOutcome> => {
     const at = this.open;
     if (!at) return refused(words.noAnswer("There is no connection."));
@@ -340,21 +366,8 @@ class UrWire extends Execution<Underway> {
     if (!at.remote) return refused(words.inLocal(this.robot));
     if (EMERGENCY_STOPS.has(safetyMode)) return refused(words.buttonPressed(this.robot));
     if (SAFEGUARD_STOPS.has(safetyMode)) return refused(words.stillGuarded(this.robot));
-    if (safetyMode === SAFETY_MODE.PROTECTIVE_STOP) {
-      const answer = await at.dashboard.ask("unlock protective stop");
-      if (answer === REPLIES.tooSoon) return refused(words.tooSoon(this.robot));
-      if (answer !== REPLIES.unlocking) return refused(words.dashboardSays("unlock protective stop", answer));
-    } else if (safetyMode === SAFETY_MODE.FAULT || safetyMode === SAFETY_MODE.VIOLATION) {
-      const why = await this.tell(at, "restart safety", "Restarting");
-      if (why) return refused(why);
-    }
-    if (
-      !(await this.until(
-        () => !wanted() || reading.safetyMode === SAFETY_MODE.NORMAL || reading.safetyMode === SAFETY_MODE.REDUCED,
-        PROGRAM_S,
-      ))
-    )
-      return refused(words.tookTooLong(this.robot, "free of its safety stop", PROGRAM_S));
+    const held = await this.freed(at, wanted);
+    if (held) return refused(held);
     if (!wanted()) return refused(stoppedInReset(this.robot));
     if (reading.robotMode < ROBOT_MODE.IDLE) {
       const why = await this.tell(at, "power on", REPLIES.poweringOn);

@@ -74,8 +74,7 @@ export class DashboardServer {
   }
 
   private carriedOut({ command, argument }: Asked, line: string): string {
-    const { states, programs, version, serial, model, now_s } = this.options;
-    const [major, minor, bugfix, build] = version;
+    const { states, now_s } = this.options;
     const failed = (): string => REPLIES.failed(command);
     switch (command) {
       case "robotmode":
@@ -96,6 +95,18 @@ export class DashboardServer {
       case "restart safety":
         states.restartSafety();
         return "Restarting safety";
+      default:
+        return (
+          this.ofProgram({ command, argument }) ?? this.about({ command, argument }) ?? REPLIES.notUnderstood(line)
+        );
+    }
+  }
+
+  /** What concerns programs; null for everything else. */
+  private ofProgram({ command, argument }: Asked): string | null {
+    const { states, programs } = this.options;
+    const failed = (): string => REPLIES.failed(command);
+    switch (command) {
       case "load": {
         const text = this.options.file(argument);
         if (text === undefined) return `File not found: ${argument}`;
@@ -116,6 +127,15 @@ export class DashboardServer {
         programs.end();
         return REPLIES.stopped;
       }
+      default:
+        return this.told(command);
+    }
+  }
+
+  /** What is told of programs; null for everything else. */
+  private told(command: string): string | null {
+    const { programs } = this.options;
+    switch (command) {
       case "running":
         return `Program running: ${programs.runtime === RUNTIME.PLAYING}`;
       case "programstate":
@@ -124,6 +144,17 @@ export class DashboardServer {
         return programs.loaded ? `Loaded program: ${programs.loaded.name}` : "No program loaded";
       case "isprogramsaved":
         return `true ${programs.loaded?.name ?? ""}`.trim();
+      default:
+        return null;
+    }
+  }
+
+  /** What concerns the controller itself and its screen; null for everything else. */
+  private about({ command, argument }: Asked): string | null {
+    const { version, serial, model } = this.options;
+    const [major, minor, bugfix, build] = version;
+    const failed = (): string => REPLIES.failed(command);
+    switch (command) {
       case "close popup":
         return "closing popup";
       case "close safety popup":
@@ -164,7 +195,7 @@ export class DashboardServer {
       case "shutdown":
         return failed();
       default:
-        return REPLIES.notUnderstood(line);
+        return null;
     }
   }
 }

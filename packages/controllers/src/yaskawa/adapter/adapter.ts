@@ -307,20 +307,12 @@ class YaskawaWire {
       this.hasGripper = true;
     }
     const model = this.isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "";
-    const wanted =
-      this.options.model ??
-      this.robot.vendorSection?.model ??
-      this.robot.name.replace(new RegExp(`^${this.robot.vendor}\\s+`, "i"), "");
+    const wanted = this.options.model ?? modelOf(this.robot);
     if (model !== "" && !plain(model).includes(plain(wanted)))
       return { why: otherModel(this.robot, wanted, model), again: false };
     const names = await this.ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);
     if (names.kind === "silent") return { why: noWay(this.to, names), again: true };
-    // Eight names, or seven of an older controller, of four letters each; an answer of another size names none.
-    const axes =
-      this.isWell(names) && names.reply.data.length <= 32
-        ? Array.from({ length: 8 }, (_, i) => textAt(names.reply.data, 4 * i, 4).trim()).filter(name => name !== "")
-            .length
-        : 0;
+    const axes = this.isWell(names) ? axesNamed(names.reply.data) : 0;
     if (axes !== 0 && axes !== this.n) return { why: otherAxes(this.robot, model || "robot", axes), again: false };
     const first = await this.poll(client);
     return first ? { why: first, again: true } : null;
@@ -391,3 +383,11 @@ function yaskawaAdapterOf(wire: YaskawaWire): YaskawaAdapter {
 
 /** Models are compared by their letters and digits. */
 const plain = (text: string): string => text.toUpperCase().replace(/[^A-Z0-9]/g, "");
+
+/** Eight names, or seven of an older controller, of four letters each; an answer of another size names none. */
+const axesNamed = (data: Uint8Array): number =>
+  data.length > 32
+    ? 0
+    : Array.from({ length: 8 }, (_, i) => textAt(data, 4 * i, 4).trim()).filter(name => name !== "").length;
+const modelOf = ({ vendorSection, name, vendor }: Robot): string =>
+  vendorSection?.model ?? name.replace(new RegExp(`^${vendor}\\s+`, "i"), "");

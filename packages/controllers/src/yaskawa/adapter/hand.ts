@@ -2,7 +2,7 @@ import type { CommandOutcome, Refusal, Robot, Scheduler } from "@twincell/core";
 import { Execution, type AdapterMotion } from "../../driver/index.ts";
 import { stopped } from "../../outcomes.ts";
 import { ADDED, COMMAND, ON, SERVICE, word, type PulseScale } from "../codec/index.ts";
-import type { Client, Question } from "./client.ts";
+import type { Answer, Client, Question } from "./client.ts";
 import { cancelError, holdOff, holdOn, resetAlarm, sayHold, saySevered, servoOff, servoOn } from "./holds.ts";
 import { commandOf, endOf } from "./motion.ts";
 import type { RobotState } from "./state.ts";
@@ -201,7 +201,12 @@ export class Hand extends Execution<Going> {
       going.standing = 0;
       return;
     }
-    if (hold) return;
+    if (!hold) this.stands(going);
+  }
+
+  /** A state came in which what was accepted does not run: it has ended, or has not begun. */
+  private stands(going: Going): void {
+    const { status } = this.options.state;
     const isOver = ++going.standing >= STANDS;
     const because = standsBecause(status);
     const robot = this.options.robot;
@@ -268,36 +273,42 @@ export class Hand extends Execution<Going> {
     if (going?.phase === "waiting" && this.override > 0) void this.tell(going);
   }
 
+  /** Whether the controller took it: by its answer, or where that was lost by what it does. */
+  private isTaken(going: Going, answer: Answer): boolean {
+    if (answer.kind === "answer") return answer.reply.status === 0;
+    return this.options.state.status.running || (going.end !== null && this.isThere(going));
+  }
+  private accepted(going: Going): void {
+    Object.assign(going, {
+      phase: "going",
+      accepted: true,
+      acceptedPoll: this.poll,
+      acceptedAt_s: this.options.scheduler.now_s(),
+      seenRunning: false,
+      standing: 0,
+    });
+  }
+
   /** Says an order that must not be carried out twice: after silence the robot is looked at before it is said again. */
   private async tell(going: Going): Promise<void> {
     const {
       client,
-      options: { robot, scale, state, scheduler },
+      options: { robot, scale },
     } = this;
     const command = going.motion ? commandOf(going.motion, robot, scale, this.override) : START;
     if (!client || !command) return;
+    const isOther = (): boolean => this.moving !== going || this.client !== client;
     going.phase = "asking";
     for (let tries = 1, passed = 0; ; tries++) {
       const answer = await client.ask({ ...command, patience_s: ONCE_S });
-      if (this.moving !== going || this.client !== client) return;
-      const isTaken = answer.kind === "answer" && answer.reply.status === 0;
+      if (isOther()) return;
       if (answer.kind === "silent") {
         await this.nextLook();
         await this.nextLook();
-        if (this.moving !== going || this.client !== client) return;
+        if (isOther()) return;
       }
-      if (
-        isTaken ||
-        (answer.kind === "silent" && (state.status.running || (going.end !== null && this.isThere(going))))
-      ) {
-        Object.assign(going, {
-          phase: "going",
-          accepted: true,
-          acceptedPoll: this.poll,
-          acceptedAt_s: scheduler.now_s(),
-          seenRunning: false,
-          standing: 0,
-        });
+      if (this.isTaken(going, answer)) {
+        this.accepted(going);
         return;
       }
       // A hold of ours was quicker: it is told again when the hold is let go.
@@ -308,7 +319,7 @@ export class Hand extends Execution<Going> {
       if (answer.kind === "silent" && tries < MOST_TRIES) continue;
       if (answer.kind === "answer" && PASSING.includes(answer.reply.added) && passed++ < MOST_PASSING) {
         await this.nextLook();
-        if (this.moving !== going || this.client !== client) return;
+        if (isOther()) return;
         continue;
       }
       this.settle({

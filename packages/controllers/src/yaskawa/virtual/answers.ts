@@ -164,17 +164,20 @@ class Answers {
     return out;
   }
 
+  private alarmHistory(instance: number): Uint8Array | undefined {
+    if (instance >= 1 && instance <= 100) return writeAlarm(this.machine.history[instance - 1]);
+    return [1000, 2000, 3000, 4000].some(from => instance > from && instance <= from + 100)
+      ? new Uint8Array(ALARM_BYTES)
+      : undefined;
+  }
+
   /** What can only be read; null for other commands. */
   read(command: number, instance: number): Uint8Array | undefined | null {
     switch (command) {
       case COMMAND.alarm:
         return instance >= 1 && instance <= 4 ? writeAlarm(this.machine.alarms[instance - 1]) : undefined;
       case COMMAND.alarmHistory:
-        return instance >= 1 && instance <= 100
-          ? writeAlarm(this.machine.history[instance - 1])
-          : [1000, 2000, 3000, 4000].some(from => instance > from && instance <= from + 100)
-            ? new Uint8Array(ALARM_BYTES)
-            : undefined;
+        return this.alarmHistory(instance);
       case COMMAND.status:
         return instance === 1 ? writeStatus(this.machine.status) : undefined;
       case COMMAND.job:
@@ -205,58 +208,72 @@ class Answers {
     return to === ON || to === OFF ? done(set(to === ON)) : refused(data.length === 4 ? ADDED.outOfRange : ADDED.size);
   }
 
+  private move(command: number, instance: number, data: Uint8Array, remote: number): Answer {
+    if (remote !== 0) return refused(remote);
+    return done(
+      command === COMMAND.movePulse ? this.moves.pulse(instance, data) : this.moves.cartesian(instance, data),
+    );
+  }
+  private select(instance: number, data: Uint8Array, remote: number): Answer {
+    if (instance !== 1) return noInstance();
+    const selection = readSelection(data);
+    return selection ? done(remote || this.machine.select(selection.job, selection.line)) : refused(ADDED.size);
+  }
+  private display(instance: number, data: Uint8Array): Answer {
+    if (instance !== 1) return noInstance();
+    this.options.display(textAt(data, 0, 30));
+    return well();
+  }
+  private reset(instance: number, remote: number): Answer {
+    return instance !== RESET.alarm && instance !== RESET.error
+      ? noInstance()
+      : remote !== 0
+        ? refused(remote)
+        : done(instance === RESET.alarm ? this.machine.resetAlarm() : this.machine.cancelError());
+  }
+  private power(instance: number, data: Uint8Array, remote: number): Answer {
+    // Anyone may stop the robot in any mode.
+    if (instance === POWER.hold)
+      return this.toggled(data, on => (on || remote === 0 ? this.machine.hold("heldByCommand", on) : remote));
+    if (instance === POWER.servo) return this.toggled(data, on => (remote === 0 ? this.machine.servo(on) : remote));
+    return instance === POWER.hlock ? this.toggled(data, () => remote) : noInstance();
+  }
+  private cycle(instance: number, data: Uint8Array, remote: number): Answer {
+    if (instance !== 2) return noInstance();
+    if (remote !== 0) return refused(remote);
+    const cycle = data.length === 4 ? u32(data, 0) : 0;
+    if (cycle < CYCLE.step || cycle > CYCLE.continuous) return refused(ADDED.outOfRange);
+    this.machine.choose(cycle);
+    return well();
+  }
+  private start(instance: number, data: Uint8Array, remote: number): Answer {
+    if (instance !== 1) return noInstance();
+    if (data.length !== 4) return refused(ADDED.size);
+    return u32(data, 0) === ON ? done(remote || this.machine.start()) : refused(ADDED.outOfRange);
+  }
+
   order({ command, instance, attribute, service, data }: HsesRequest): Answer | null {
     const isOne = attribute === 1 && service === SERVICE.setOne;
     const remote = this.machine.fromOutside();
     switch (command) {
       case COMMAND.reset:
         if (!isOne) return noAttribute();
-        return instance !== RESET.alarm && instance !== RESET.error
-          ? noInstance()
-          : remote !== 0
-            ? refused(remote)
-            : done(instance === RESET.alarm ? this.machine.resetAlarm() : this.machine.cancelError());
+        return this.reset(instance, remote);
       case COMMAND.power:
-        if (!isOne) return noAttribute();
-        // Anyone may stop the robot in any mode.
-        if (instance === POWER.hold)
-          return this.toggled(data, on => (on || remote === 0 ? this.machine.hold("heldByCommand", on) : remote));
-        if (instance === POWER.servo) return this.toggled(data, on => (remote === 0 ? this.machine.servo(on) : remote));
-        return instance === POWER.hlock ? this.toggled(data, () => remote) : noInstance();
-      case COMMAND.cycle: {
-        if (!isOne) return noAttribute();
-        if (instance !== 2) return noInstance();
-        if (remote !== 0) return refused(remote);
-        const cycle = data.length === 4 ? u32(data, 0) : 0;
-        if (cycle < CYCLE.step || cycle > CYCLE.continuous) return refused(ADDED.outOfRange);
-        this.machine.choose(cycle);
-        return well();
-      }
+        return isOne ? this.power(instance, data, remote) : noAttribute();
+      case COMMAND.cycle:
+        return isOne ? this.cycle(instance, data, remote) : noAttribute();
       case COMMAND.display:
         if (!isOne) return noAttribute();
-        if (instance !== 1) return noInstance();
-        this.options.display(textAt(data, 0, 30));
-        return well();
+        return this.display(instance, data);
       case COMMAND.start:
-        return !isOne
-          ? noAttribute()
-          : instance !== 1
-            ? noInstance()
-            : data.length !== 4
-              ? refused(ADDED.size)
-              : u32(data, 0) !== ON
-                ? refused(ADDED.outOfRange)
-                : done(remote || this.machine.start());
-      case COMMAND.select: {
+        return isOne ? this.start(instance, data, remote) : noAttribute();
+      case COMMAND.select:
         if (attribute !== 0 || service !== SERVICE.setAll) return noAttribute();
-        if (instance !== 1) return noInstance();
-        const selection = readSelection(data);
-        return selection ? done(remote || this.machine.select(selection.job, selection.line)) : refused(ADDED.size);
-      }
+        return this.select(instance, data, remote);
       case COMMAND.movePulse:
-        return service !== SERVICE.setAll ? noAttribute() : done(remote || this.moves.pulse(instance, data));
       case COMMAND.moveCartesian:
-        return service !== SERVICE.setAll ? noAttribute() : done(remote || this.moves.cartesian(instance, data));
+        return service === SERVICE.setAll ? this.move(command, instance, data, remote) : noAttribute();
       default:
         return null;
     }
@@ -298,29 +315,40 @@ class Answers {
     const remote = isSet ? this.machine.fromOutside() : 0;
     if (remote !== 0) return refused(remote);
     if (isSet && data.length < 4 + count * bytes) return refused(ADDED.size);
+    return this.allOf(isIo ? undefined : kind, { instance, count, bytes, data: isSet ? data : null });
+  }
+
+  /** So many values at once, read or written; of lines where no kind of variable is given. */
+  private allOf(
+    kind: ValueKind | undefined,
+    { instance, count, bytes, data }: { instance: number; count: number; bytes: number; data: Uint8Array | null },
+  ): Answer {
     // Looked at as a whole first: a refused write changes nothing.
     const last = instance + count - 1;
     if (
-      isIo
+      kind === undefined
         ? this.lines.read(instance) === undefined || this.lines.read(last) === undefined
-        : instance < kind!.first || last > kind!.last
+        : instance < kind.first || last > kind.last
     )
       return noInstance();
-    const out = new Uint8Array(4 + (isSet ? 0 : count * bytes));
+    const out = new Uint8Array(4 + (data ? 0 : count * bytes));
     putU32(out, 0, count);
     for (let i = 0; i < count; i++) {
       const at = 4 + i * bytes;
-      const one = data.subarray(at, at + bytes);
-      if (isSet) {
-        if (!isIo) this.variables.write(kind!, instance + i, one);
+      if (data) {
+        const one = data.subarray(at, at + bytes);
+        if (kind) this.variables.write(kind, instance + i, one);
         else if (!this.lines.write(instance + i, one[0]!)) return refused(ADDED.notAccessible);
         continue;
       }
-      const is = isIo ? Uint8Array.of(this.lines.read(instance + i) ?? 0) : this.variables.read(kind!, instance + i);
+      const is =
+        kind === undefined
+          ? Uint8Array.of(this.lines.read(instance + i) ?? 0)
+          : this.variables.read(kind, instance + i);
       if (!is) return refused(ADDED.noPosition);
       out.set(is, at);
     }
-    return well(isSet ? NOTHING : out);
+    return well(data ? NOTHING : out);
   }
 
   io({ instance, attribute, service, data }: HsesRequest): Answer {

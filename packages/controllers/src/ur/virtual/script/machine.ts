@@ -123,25 +123,43 @@ export class Machine {
     return undefined;
   }
 
+  private *assign(statement: Extract<Statement, { readonly kind: "assign" }>, scope: Scope): Generator<void, void> {
+    const value = yield* this.evaluate(statement.value, scope);
+    const { name } = statement;
+    const into =
+      statement.scope === "global" || (statement.scope === "nearest" && !scope.has(name) && this.globals.has(name))
+        ? this.globals
+        : scope;
+    if (statement.index === undefined) {
+      into.set(name, value);
+      return;
+    }
+    const index = yield* this.evaluate(statement.index, scope);
+    const old = this.named(name, scope);
+    if (old === undefined) throw new ScriptError(statement, `"${name}" has no value yet.`);
+    into.set(name, withItem(old, index, value, statement));
+  }
+
+  private *loop(statement: Extract<Statement, { readonly kind: "while" }>, scope: Scope): Generator<void, Flow> {
+    while (asTruth(yield* this.evaluate(statement.when, scope), statement.when)) {
+      const flow = yield* this.block(statement.body, scope);
+      const thread = this.threads.get(this.current);
+      // An empty loop spends too.
+      if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) {
+        thread.spent = 0;
+        yield;
+      }
+      if (flow?.kind === "break") break;
+      if (flow?.kind === "return") return flow;
+    }
+    return undefined;
+  }
+
   private *statement(statement: Statement, scope: Scope): Generator<void, Flow> {
     switch (statement.kind) {
-      case "assign": {
-        const value = yield* this.evaluate(statement.value, scope);
-        const { name } = statement;
-        const into =
-          statement.scope === "global" || (statement.scope === "nearest" && !scope.has(name) && this.globals.has(name))
-            ? this.globals
-            : scope;
-        if (statement.index === undefined) {
-          into.set(name, value);
-          return undefined;
-        }
-        const index = yield* this.evaluate(statement.index, scope);
-        const old = this.named(name, scope);
-        if (old === undefined) throw new ScriptError(statement, `"${name}" has no value yet.`);
-        into.set(name, withItem(old, index, value, statement));
+      case "assign":
+        yield* this.assign(statement, scope);
         return undefined;
-      }
       case "do":
         yield* this.evaluate(statement.value, scope);
         return undefined;
@@ -150,18 +168,7 @@ export class Machine {
           if (asTruth(yield* this.evaluate(arm.when, scope), arm.when)) return yield* this.block(arm.body, scope);
         return yield* this.block(statement.otherwise, scope);
       case "while":
-        while (asTruth(yield* this.evaluate(statement.when, scope), statement.when)) {
-          const flow = yield* this.block(statement.body, scope);
-          const thread = this.threads.get(this.current);
-          // An empty loop spends too.
-          if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) {
-            thread.spent = 0;
-            yield;
-          }
-          if (flow?.kind === "break") break;
-          if (flow?.kind === "return") return flow;
-        }
-        return undefined;
+        return yield* this.loop(statement, scope);
       case "return":
         return {
           kind: "return",

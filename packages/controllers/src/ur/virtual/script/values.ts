@@ -84,8 +84,8 @@ function same(a: Value, b: Value): boolean {
   return a === b;
 }
 
-/** An operator between two values. Lists add and subtract item by item, and a number scales them. */
-export function binary(sign: string, a: Value, b: Value, at: At): Value {
+/** What compares or joins truths; undefined for other operators. */
+function compared(sign: string, a: Value, b: Value, at: At): boolean | undefined {
   switch (sign) {
     case "==":
       return same(a, b);
@@ -106,7 +106,14 @@ export function binary(sign: string, a: Value, b: Value, at: At): Value {
     case "xor":
       return asTruth(a, at) !== asTruth(b, at);
     default:
+      return undefined;
   }
+}
+
+/** An operator between two values. Lists add and subtract item by item, and a number scales them. */
+export function binary(sign: string, a: Value, b: Value, at: At): Value {
+  const truth = compared(sign, a, b, at);
+  if (truth !== undefined) return truth;
   if (typeof a === "number" && typeof b === "number") return arithmetic(sign, a, b, at);
   if (sign === "+" && typeof a === "string" && typeof b === "string") return a + b;
   if ((sign === "+" || sign === "-") && isList(a) && isList(b)) {
