@@ -19,7 +19,7 @@ export interface AuditEntryState {
 export type AuditEntry =
   | Exclude<
       ConnectionRequest,
-      { readonly type: "alive" | "ping" | "open" | "visit" | "look-ahead" | "preview" | "together" }
+      { readonly type: "alive" | "ping" | "open" | "visit" | "look-ahead" | "preview" | "takes" | "together" }
     >
   | {
       readonly type: "together";

@@ -135,6 +135,8 @@ export const requestSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
   /** Shows where a program would take the robot; nothing is sent to it. */
   z.object({ type: z.literal("preview"), ...asked, ...station, program: z.unknown() }),
+  /** Whether its connection can be told every step of a program, one by one; nothing is sent to it. */
+  z.object({ type: z.literal("takes"), ...asked, ...station, program: z.unknown() }),
   /** All or none: every one is made ready first, then all start on one clock, and whoever is stopped stops all. */
   z.object({
     type: z.literal("together"),

@@ -246,7 +246,8 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
       ): Promise<CommandOutcome> {
         if (ask.type === "open") return open(ask);
         if (ask.type === "together") return together(ask);
-        if (ask.type === "visit" || ask.type === "look-ahead" || ask.type === "preview") return looked(ask);
+        if (ask.type === "visit" || ask.type === "look-ahead" || ask.type === "preview" || ask.type === "takes")
+          return looked(ask);
         const station = stations.get(ask.station)?.station;
         if (!station) return noStation(ask.station);
         const told = tellAct(who, ask, ask.station);
@@ -258,7 +259,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
       }
       /** What only looks: nothing of it reaches the robot, and nobody is told. */
       async function looked(
-        ask: RequestOf<"visit"> | RequestOf<"look-ahead"> | RequestOf<"preview">,
+        ask: RequestOf<"visit"> | RequestOf<"look-ahead"> | RequestOf<"preview"> | RequestOf<"takes">,
       ): Promise<CommandOutcome> {
         const station = stations.get(ask.station)?.station;
         if (!station) return noStation(ask.station);
@@ -268,9 +269,11 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
           case "look-ahead":
             station.ahead.horizon_s = ask.seconds;
             return DONE;
-          case "preview": {
+          case "preview":
+          case "takes": {
             const parsed = parseProgram(ask.program);
-            return parsed.kind === "program" ? station.preview(parsed.program) : unreadable(parsed.faults[0]?.sentence);
+            if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
+            return ask.type === "preview" ? station.preview(parsed.program) : station.takes(parsed.program);
           }
         }
       }

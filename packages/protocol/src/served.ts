@@ -37,6 +37,8 @@ export interface ServedConnection<Seat extends ServedCommander = ServedCommander
     ): () => void;
   };
   preview(program: Program): Promise<CommandOutcome>;
+  /** Whether its connection can be told every step of it, one by one. */
+  takes(program: Program): CommandOutcome;
   run(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<ServedRun>;

@@ -17,6 +17,8 @@ import {
 import {
   createRealController,
   drivesRobot,
+  reachableSteps,
+  stepsRefusal,
   type DriverKind,
   type ControllerData,
   type PortNumbers,
@@ -97,6 +99,8 @@ export interface VendorConnection extends RobotConnection {
    *   contact all the same.
    */
   run(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
+  /** Whether every step of it can be told over this connection, one by one; refused with all that cannot. */
+  takes(program: Program): CommandOutcome;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
   /** Why it would not be run from where the program that runs now ends, or the robot stands; null where it would. */
@@ -244,6 +248,18 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     notices.call(why);
   });
   /**
+   * What of a program an open connection cannot be told step by step; null where it goes there as text, which its
+   * language has been asked about.
+   */
+  const unsayable = (program: Program, asText: boolean): Refusal | null => {
+    if (!controller.isConnected || (asText && controller.runText)) return null;
+    const terminal = terminalsOf(program, brand);
+    return stepsRefusal(
+      [...reachableSteps(program)].map(step => withLines(step, terminal)),
+      controller,
+    );
+  };
+  /**
    * The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not
    * sent.
    */
@@ -366,6 +382,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
       },
       async run(commander, program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return refused(unsaid);
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
@@ -377,10 +395,18 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         return blocked ? refused(blocked) : carrying(answer.job, () => station.carryOut(commander, answer.job));
       },
       async judge(program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return unsaid;
         const answer = await jobOf(program, asText, end_rad ?? controller.jointAngles().slice());
         return answer.kind === "refused" ? answer.why : (answer.stuck ?? blockedBy(answer.job, despite, false));
       },
+      takes(program) {
+        const why = unsayable(program, false);
+        return why ? refused(why) : DONE;
+      },
       async preview(program) {
+        const unsaid = unsayable(program, true);
+        if (unsaid) return refused(unsaid);
         const answer = await jobOf(program, false);
         if (answer.kind === "refused") return answer;
         const {
@@ -400,6 +426,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
           : DONE;
       },
       async prepare(commander, program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return { kind: "refused", why: unsaid };
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
@@ -422,15 +450,19 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
   };
 }
 
+/** What the lines of a program are called at the controller. */
+const terminalsOf =
+  (program: Program, brand: DriverKind) =>
+  (name: string): string => {
+    const line = program.signals[name];
+    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
+  };
 /**
  * The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions
  * too.
  */
 function* atTerminals(program: Program, brand: DriverKind, signals?: Signals): Generator<Step> {
-  const terminal = (name: string): string => {
-    const line = program.signals[name];
-    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
-  };
+  const terminal = terminalsOf(program, brand);
   const read = signals && {
     read: (name: string) => signals.read(terminal(name)),
     write: (name: string, value: boolean | number) => {

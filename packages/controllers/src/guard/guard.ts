@@ -479,6 +479,7 @@ export function createGuard(options: GuardOptions): Guard {
         moveToPose: baseFromFlange => command(who, null, () => controller.moveToPose(baseFromFlange)),
         moveToZero: () => command(who, new Float64Array(n), () => controller.moveToZero()),
         run: (steps, context) => command(who, null, () => controller.run(steps, context)),
+        cannotCarryOut: step => controller.cannotCarryOut(step),
         stop: emergency => {
           guard.stop(emergency);
         },

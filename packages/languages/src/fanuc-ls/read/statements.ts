@@ -1,6 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError, textFault } from "../../parser/index.ts";
 import {
+  BINDS_AS_BASIC,
   RecoveringReader,
   readExpression,
   type Argument,
@@ -66,22 +67,7 @@ const RESERVED: ReadonlySet<string> = new Set([
   "mod",
 ]);
 const RULES: ExpressionRules = {
-  binary: {
-    or: 1,
-    and: 2,
-    "=": 4,
-    "<>": 4,
-    "<": 4,
-    ">": 4,
-    "<=": 4,
-    ">=": 4,
-    "+": 5,
-    "-": 5,
-    "*": 6,
-    "/": 6,
-    div: 6,
-    mod: 6,
-  },
+  binary: BINDS_AS_BASIC,
   prefix: { "!": 7, "-": 7, "+": 7 },
   constants: { on: true, off: false },
   tags: [],

@@ -36,6 +36,9 @@ import {
   type ExpressionWords,
   type Pattern,
   shownAxes,
+  BASIC_SIGNS,
+  lineKind,
+  checkSetting,
 } from "../../emitter/index.ts";
 import { GRIPPER_SIGNAL } from "../robots.ts";
 import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
@@ -303,32 +306,14 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private lineOf(signal: string, step: Step): { readonly name: string; readonly kind: SignalLine["kind"] } {
-    const { signals } = this.place.program;
     const name = this.signalName(signal, step);
-    if (!Object.hasOwn(signals, signal))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
-        "Add it to the list.",
-      );
-    return { name, kind: signals[signal]!.kind };
+    return { name, kind: lineKind(this.place.program, signal, step) };
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
     const { name, kind } = this.lineOf(step.signal, step);
     const { to } = step;
-    if (kind.endsWith("in"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes the line ${step.signal}, which is an input.`,
-        "Choose an output.",
-      );
-    if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
-        "Choose a value of that line.",
-      );
+    checkSetting(step, kind);
     if (typeof to === "number") return add(`SetAO ${name},${part(to)};`);
     if (step.pulse_s === undefined) return add(`SetDO ${name},${to ? 1 : 0};`);
     if (!to)
@@ -373,22 +358,7 @@ export class ProgramWriter extends BlockStepWriter {
       return isDigital ? `D${word}(${name})=1` : `A${word}(${name})`;
     },
     not: inner => `NOT ${inner}`,
-    signs: {
-      and: " AND ",
-      or: " OR ",
-      "=": "=",
-      "<>": "<>",
-      "<": "<",
-      "<=": "<=",
-      ">": ">",
-      ">=": ">=",
-      "+": "+",
-      "-": "-",
-      "*": "*",
-      "/": "/",
-      div: " DIV ",
-      mod: " MOD ",
-    },
+    signs: BASIC_SIGNS,
     calls: {
       abs: x => `Abs(${x})`,
       sqrt: x => `Sqrt(${x})`,
