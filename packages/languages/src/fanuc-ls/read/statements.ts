@@ -169,6 +169,15 @@ export class StatementReader extends MotionReader {
         cursor.expect("pr");
         return this.act({ kind: "tool-offset-condition", register: this.indexed() }, at);
       }
+      default:
+        return this.flow(at, word);
+    }
+  }
+
+  /** What decides, repeats, jumps and ends. */
+  private flow(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "if":
         return this.decision(at);
       case "select":

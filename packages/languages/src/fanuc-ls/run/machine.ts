@@ -253,6 +253,31 @@ export class Machine extends Motions {
       case "timeout":
         this.timeout = this.numberOf(action.value);
         return undefined;
+      default:
+        return this.setting(action, at);
+    }
+  }
+
+  /** Frames, flags and registers. */
+  private setting(
+    action: Exclude<
+      Exclude<Action, { kind: "jump" | "jump-to" }>,
+      {
+        kind:
+          | "motion"
+          | "set"
+          | "wait"
+          | "wait-for"
+          | "message"
+          | "skip-condition"
+          | "offset-condition"
+          | "tool-offset-condition"
+          | "timeout";
+      }
+    >,
+    at: Do,
+  ): Step | undefined {
+    switch (action.kind) {
       case "select": {
         const before = this.unknowns;
         const number = this.numberOf(action.number);

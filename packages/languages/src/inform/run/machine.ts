@@ -153,6 +153,22 @@ export class Machine extends Motions {
         if (statement.when !== undefined && !this.holds(statement.when, statement)) break;
         this.stopped = true;
         return done({ id: id(), type: "stop" });
+      default:
+        return this.handled(statement, frame);
+    }
+    this.note(statement);
+  }
+
+  /** What calls, computes and sets. */
+  private handled(
+    statement: Exclude<
+      Statement,
+      { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
+    >,
+    frame: Frame,
+  ): void {
+    const { memory } = this;
+    switch (statement.kind) {
       case "call":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.call(statement, statement);
         break;

@@ -375,6 +375,12 @@ class Reader extends RecoveringReader {
       default:
         break;
     }
+    return this.byName(at, word);
+  }
+
+  /** Statements that begin with a name, and instructions. */
+  private byName(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
     if (Object.hasOwn(UNSUPPORTED, word))
       throw new TextError(at, "a statement of the motion program", UNSUPPORTED[word]!);
     if (RESERVED.has(word)) throw cursor.unexpected("a statement");

@@ -296,7 +296,6 @@ export class Machine extends BlockMachine<Value> {
 
   private steps(statement: Do): Step[] {
     const { name, args } = statement;
-    const id = (): string => this.stepId(statement);
     if (MOTIONS.has(name)) {
       const step = this.motion(statement);
       return step === undefined ? [] : [step];
@@ -344,6 +343,25 @@ export class Machine extends BlockMachine<Value> {
       case "base":
         this.setBase(args[0]?.value, statement);
         return [];
+      default:
+        return this.posturesAndGrippers(statement);
+    }
+  }
+
+  /** Postures, variables, waits and grippers. */
+  private posturesAndGrippers(statement: Do): Step[] {
+    const { name, args } = statement;
+    const id = (): string => this.stepId(statement);
+    const value = (i: number): Value | undefined => {
+      const { value: of, name: mark } = args[i] ?? {};
+      return of === undefined || mark !== undefined ? undefined : this.evaluate(of);
+    };
+    const number = (i: number, what: string): number => {
+      const found = value(i);
+      if (found === undefined) throw new TextError(statement, what, `${name.toUpperCase()} is said without ${what}.`);
+      return asNumber(found, args[i]!);
+    };
+    switch (name) {
       case "lefty":
       case "righty":
         this.posture = { ...this.posture, arm: name };
@@ -368,6 +386,25 @@ export class Machine extends BlockMachine<Value> {
       case "closei":
       case "close":
         return [{ id: id(), type: "gripper", closed: true }];
+      default:
+        return this.linesAndMessages(statement);
+    }
+  }
+
+  /** Lines, loads and messages. */
+  private linesAndMessages(statement: Do): Step[] {
+    const { name, args } = statement;
+    const id = (): string => this.stepId(statement);
+    const value = (i: number): Value | undefined => {
+      const { value: of, name: mark } = args[i] ?? {};
+      return of === undefined || mark !== undefined ? undefined : this.evaluate(of);
+    };
+    const number = (i: number, what: string): number => {
+      const found = value(i);
+      if (found === undefined) throw new TextError(statement, what, `${name.toUpperCase()} is said without ${what}.`);
+      return asNumber(found, args[i]!);
+    };
+    switch (name) {
       case "signal":
         return args.flatMap(({ value: of }) => (of === undefined ? [] : [this.write(of, id())]));
       case "pulse": {

@@ -108,21 +108,10 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         return expression.value;
       case "truth":
         return expression.value ? this.truth : 0;
-      case "variable": {
-        const value = this.variable(expression.name) ?? this.known(expression.name);
-        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: expression.name };
-        if (value === undefined)
-          throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
-        return value;
-      }
-      case "index": {
-        const key = this.keyOf(expression);
-        const value = this.variable(key) ?? this.digital(expression);
-        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: key };
-        if (value === undefined)
-          throw new TextError(expression, "a variable that has a value", `"${key}" has no value yet.`);
-        return value;
-      }
+      case "variable":
+        return this.namedValue(expression);
+      case "index":
+        return this.indexedValue(expression);
       case "list":
         throw new TextError(expression, "a value", "A list of numbers stands where a value is expected.");
       case "component":
@@ -145,6 +134,25 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         return this.digital(expression) ?? this.applied(expression);
       }
     }
+  }
+
+  /** An element of an array, or a line by its number. */
+  private indexedValue(expression: Extract<Expression, { kind: "index" }>): Value {
+    const key = this.keyOf(expression);
+    const value = this.variable(key) ?? this.digital(expression);
+    if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: key };
+    if (value === undefined)
+      throw new TextError(expression, "a variable that has a value", `"${key}" has no value yet.`);
+    return value;
+  }
+
+  /** What a name stands for. */
+  private namedValue(expression: Extract<Expression, { kind: "variable" }>): Value {
+    const value = this.variable(expression.name) ?? this.known(expression.name);
+    if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: expression.name };
+    if (value === undefined)
+      throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+    return value;
   }
 
   isTrue(expression: Expression): boolean {

@@ -101,14 +101,7 @@ export abstract class BlockMachine<V> {
         return statement.otherwise === undefined ? "next" : yield* this.block(statement.otherwise);
       }
       case "while":
-        while (this.isTrue(statement.when)) {
-          this.spend(statement);
-          yield { line: statement.line };
-          const flow = yield* this.block(statement.body);
-          if (flow === "break") break;
-          if (flow === "return" || flow === "halt" || flow === "goto") return flow;
-        }
-        return "next";
+        return yield* this.whileLoop(statement);
       case "for":
         return yield* this.loop(statement);
       case "wait-until":
@@ -129,6 +122,17 @@ export abstract class BlockMachine<V> {
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
         return "halt";
     }
+  }
+
+  private *whileLoop(statement: Extract<Statement, { kind: "while" }>): Generator<Executed, Flow> {
+    while (this.isTrue(statement.when)) {
+      this.spend(statement);
+      yield { line: statement.line };
+      const flow = yield* this.block(statement.body);
+      if (flow === "break") break;
+      if (flow === "return" || flow === "halt" || flow === "goto") return flow;
+    }
+    return "next";
   }
 
   /** From, last and step of a counting loop. */

@@ -164,6 +164,15 @@ export abstract class Evaluation extends KeptData {
         const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
       }
+      default:
+        return this.computed(expression, args);
+    }
+  }
+
+  /** What is made of texts and arrays, what the controller answers, and what is computed. */
+  private computed(expression: Extract<Expression, { kind: "call" }>, args: Arguments): Value {
+    const { name, args: given } = expression;
+    switch (name) {
       case "strtoval": {
         const to = given[1]?.value;
         const text = args.value(0, "a text");

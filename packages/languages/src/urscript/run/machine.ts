@@ -184,6 +184,16 @@ export class Machine extends BlockMachine<Value> {
             )
           : { kind: "list", items };
       }
+      default:
+        return this.composed(expression);
+    }
+  }
+
+  /** What is part of something, or made of parts. */
+  private composed(
+    expression: Exclude<Expression, { kind: "number" | "truth" | "text" | "variable" | "list" }>,
+  ): Value {
+    switch (expression.kind) {
       case "index":
         return expression.indices.reduce<Value>(
           (value, index) => itemOf(value, this.numberOf(index), index),
@@ -280,6 +290,12 @@ export class Machine extends BlockMachine<Value> {
       default:
         break;
     }
+    return this.computed(expression, args);
+  }
+
+  /** What a line is, and what is computed of values. */
+  private computed(expression: Extract<Expression, { kind: "call" }>, args: Arguments): Value {
+    const { name, args: given } = expression;
     const line = this.lineOf(expression);
     if (line !== undefined) return this.read(line);
     if (OUTSIDE.test(name))
@@ -430,6 +446,19 @@ export class Machine extends BlockMachine<Value> {
         yield say({ id: id(), type: "wait", s });
         return undefined;
       }
+      default:
+        return yield* this.toldOrWritten(statement, args);
+    }
+    yield { line: statement.line };
+    return undefined;
+  }
+
+  /** What is set, said and written. */
+  private *toldOrWritten(statement: Do, args: Arguments): Generator<Executed, Flow | undefined> {
+    const { name } = statement;
+    const id = (): string => this.stepId(statement);
+    const say = (step: Step): Executed => this.done(statement, step);
+    switch (name) {
       case "set_tcp":
         this.setTcp(args, statement);
         break;

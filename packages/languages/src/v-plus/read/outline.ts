@@ -168,11 +168,9 @@ function patternAt(
   let next = at;
   const match = (pattern: string): RegExpExecArray | null =>
     new RegExp(`^\\s*${pattern}\\s*$`, "i").exec(lines[next++] ?? "");
-  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`);
-  const layers = first && match("FOR (\\w+) = 0 TO (\\d+)");
-  const outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
-  const inner = outer && match(`FOR (\\w+) = 0 TO (\\d+)(-\\(${outer[1]!} MOD 2\\))?`);
-  if (!inner) return undefined;
+  const nest = nestOf(match);
+  if (nest === undefined) return undefined;
+  const { first, layers, outer, inner } = nest;
   const shifted = inner[3] !== undefined;
   const o = outer[1]!;
   const n = inner[1]!;
@@ -206,4 +204,15 @@ function patternAt(
       layer_mm: part(4),
     },
   };
+}
+
+/** The first place and the three loops that a pattern begins with. */
+function nestOf(
+  match: (pattern: string) => RegExpExecArray | null,
+): Readonly<Record<"first" | "layers" | "outer" | "inner", RegExpExecArray>> | undefined {
+  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`);
+  const layers = first && match("FOR (\\w+) = 0 TO (\\d+)");
+  const outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
+  const inner = outer && match(`FOR (\\w+) = 0 TO (\\d+)(-\\(${outer[1]!} MOD 2\\))?`);
+  return inner ? { first, layers, outer, inner } : undefined;
 }
