@@ -139,6 +139,15 @@ export class StatementReader extends MotionReader {
         return this.assignment(word, at);
       case "ar":
         throw new TextError(at, "a statement of the motion program", "AR[] cannot be given a value.");
+      default:
+        return this.named(at, word);
+    }
+  }
+
+  /** Frames, tools and conditions. */
+  private named(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "sr":
         return this.shown(at, "a text register is given a text");
       case "arc":

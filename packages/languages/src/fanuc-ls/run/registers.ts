@@ -80,20 +80,8 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       case "number":
       case "truth":
         return expression.value;
-      case "variable": {
-        if (expression.name === "jpos") return { joints_deg: this.arm.isLost ? UNKNOWN : this.arm.shown() };
-        if (expression.name === "lpos" && this.arm.isLost) return UNKNOWN;
-        if (expression.name === "lpos")
-          return [
-            ...toSix(
-              times(
-                times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
-                this.setups.now("utool", expression).matrix,
-              ),
-            ),
-          ];
-        return this.register(expression.name, expression);
-      }
+      case "variable":
+        return this.namedValue(expression);
       case "index":
         return this.elementOf(expression);
       case "unary":
@@ -103,6 +91,22 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       default:
         throw new TextError(expression, "a value of TP", "This is no value of TP.");
     }
+  }
+
+  /** Where the robot is, or a register. */
+  private namedValue(expression: Extract<Expression, { kind: "variable" }>): Value {
+    if (expression.name === "jpos") return { joints_deg: this.arm.isLost ? UNKNOWN : this.arm.shown() };
+    if (expression.name === "lpos" && this.arm.isLost) return UNKNOWN;
+    if (expression.name === "lpos")
+      return [
+        ...toSix(
+          times(
+            times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
+            this.setups.now("utool", expression).matrix,
+          ),
+        ),
+      ];
+    return this.register(expression.name, expression);
   }
 
   /** A register, a line or a function with its number. */
@@ -131,6 +135,16 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       return this.unknown(expression, `TIMER[${first}] is the controller's: it is taken as 0.`);
     if (word !== "r" && word !== "pr")
       throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
+    return this.registerValue(expression, word, second, first);
+  }
+
+  /** A register, or an element of it. */
+  private registerValue(
+    expression: Extract<Expression, { kind: "index" }>,
+    word: string,
+    second: number | undefined,
+    first: number | undefined,
+  ): Value {
     const value = this.register(`${word}${first}`, expression);
     if (second === undefined) return value;
     const part = (isSix(value) ? value : isJoints(value) ? value.joints_deg : [])[second - 1];

@@ -212,6 +212,24 @@ export class Machine extends Motions {
       case "away":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.away(statement.what, statement);
         break;
+      default:
+        return this.computedOrSet(statement);
+    }
+    this.note(statement);
+  }
+
+  /** What is shown, computed, kept or set for the motions that follow. */
+  private computedOrSet(
+    statement: Exclude<
+      Exclude<
+        Statement,
+        { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
+      >,
+      { kind: "call" | "argument" | "unknown" | "positions" | "frame" | "away" }
+    >,
+  ): void {
+    const { memory } = this;
+    switch (statement.kind) {
       case "shown":
         this.notices?.add(
           statement,

@@ -259,8 +259,7 @@ export class JobWriter {
     };
     const { q_rad, via_rad } = configurations.get(step.id)!;
     const { target, frame, loop } = this.taught(step.target);
-    // Joint angles are reached with any tool; the one in force stays.
-    const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+    const tool = this.toolOf(step);
     this.shiftFor(loop, step.id);
     const speed = speedText(step, place.robot.maxTcpSpeed_mps);
     const acceleration = accelerationText(step);
@@ -274,11 +273,19 @@ export class JobWriter {
       add(`MOVC ${this.points.add(step, via.target, frame, tool, via_rad ?? q_rad).name} ${speed}`);
     }
     const { name, arrival } = this.points.add(step, target, frame, tool, q_rad);
-    add(
-      `${WORDS[step.path]} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`,
-    );
+    const end = step.path === "circ" ? " FPT" : "";
+    add(`${WORDS[step.path]} ${name} ${speed}${corner}${acceleration}${end}${this.until(step)}`);
     if (step.until?.missing === "fault") add(`ABORT IF ${this.condition(step.until.when, true)}`);
     this.arrival = loop === undefined && step.until === undefined ? arrival : undefined;
+  }
+
+  /** Joint angles are reached with any tool; the one in force stays. */
+  private toolOf({ path, target }: MoveStep): string {
+    return target.tool ?? (path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+  }
+
+  private until({ until }: MoveStep): string {
+    return until === undefined ? "" : ` UNTIL ${this.condition(until.when)}`;
   }
 
   /** Arcs and curves begin with the point that the robot stands at. */

@@ -79,17 +79,8 @@ export abstract class BlockMachine<V> {
     if (statement.kind === "comment" || statement.kind === "label") return "next";
     this.spend(statement);
     switch (statement.kind) {
-      case "assign": {
-        const { value } = statement;
-        const called = value.kind === "call" ? this.routine(value.name) : undefined;
-        if (called !== undefined && value.kind === "call") {
-          const flow = yield* this.call(called, value.args, value);
-          if (flow === "halt") return flow;
-          this.store(statement.to, this.result(value), statement.global);
-        } else this.store(statement.to, this.evaluate(value), statement.global);
-        yield { line: statement.line };
-        return "next";
-      }
+      case "assign":
+        return yield* this.assignment(statement);
       case "do": {
         const called = this.routine(statement.name);
         if (called !== undefined) return yield* this.call(called, statement.args, statement);
@@ -107,6 +98,16 @@ export abstract class BlockMachine<V> {
       case "wait-until":
         yield* this.waitUntil(statement);
         return "next";
+      default:
+        return yield* this.leaving(statement);
+    }
+  }
+
+  /** What leaves a loop, a routine or the program. */
+  private *leaving(
+    statement: Extract<Statement, { kind: "return" | "break" | "continue" | "goto" | "halt" }>,
+  ): Generator<Executed, Flow> {
+    switch (statement.kind) {
       case "return":
         this.returned = statement.value === undefined ? undefined : this.evaluate(statement.value);
         return "return";
@@ -122,6 +123,19 @@ export abstract class BlockMachine<V> {
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
         return "halt";
     }
+  }
+
+  /** A value, or what a routine answers. */
+  private *assignment(statement: Extract<Statement, { kind: "assign" }>): Generator<Executed, Flow> {
+    const { value } = statement;
+    const called = value.kind === "call" ? this.routine(value.name) : undefined;
+    if (called !== undefined && value.kind === "call") {
+      const flow = yield* this.call(called, value.args, value);
+      if (flow === "halt") return flow;
+      this.store(statement.to, this.result(value), statement.global);
+    } else this.store(statement.to, this.evaluate(value), statement.global);
+    yield { line: statement.line };
+    return "next";
   }
 
   private *whileLoop(statement: Extract<Statement, { kind: "while" }>): Generator<Executed, Flow> {

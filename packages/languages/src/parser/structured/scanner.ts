@@ -83,6 +83,19 @@ export class Scanner {
     );
   }
 
+  private number(from: number): void {
+    NUMBER.lastIndex = from;
+    const number = NUMBER.exec(this.text)![0];
+    this.at += number.length;
+    this.found("number", number);
+  }
+
+  private word(from: number): void {
+    const { text } = this;
+    while (this.at < text.length && isWordCode(text.charCodeAt(this.at))) this.at++;
+    this.found("word", text.slice(from, this.at));
+  }
+
   /** A word as this language alone spells it. */
   private wordOfLexicon(from: number): string | undefined {
     const { word } = this.lexicon;
@@ -111,16 +124,8 @@ export class Scanner {
         this.at += word.length;
         return this.found("word", word);
       }
-      if (sort === LETTER) {
-        while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
-        return this.found("word", text.slice(from, this.at));
-      }
-      if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) {
-        NUMBER.lastIndex = from;
-        const number = NUMBER.exec(text)![0];
-        this.at += number.length;
-        return this.found("number", number);
-      }
+      if (sort === LETTER) return this.word(from);
+      if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) return this.number(from);
       if (sort === LINE_END) {
         this.newLine(text[from]!);
         if (lexicon.lineEnds && this.depth === 0) return this.found("line-end", "");

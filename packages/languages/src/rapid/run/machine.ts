@@ -143,6 +143,15 @@ export class Machine extends Motions {
       case "set":
       case "reset":
         return this.write(args.nameOf(0, "a line"), name === "set", at);
+      default:
+        return this.written(name, args, at);
+    }
+  }
+
+  /** Lines that are set, and what is set for the motions that follow. */
+  private written(name: string, args: Arguments, at: TextPlace): Step | undefined {
+    const id = (): string => this.stepId(at);
+    switch (name) {
       case "setdo":
         return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
       case "setao":

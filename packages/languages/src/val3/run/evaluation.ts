@@ -108,6 +108,15 @@ export abstract class Evaluation extends KeptData {
         const frame = this.chain(this.of("frame", given(1)));
         return toSix(times(inverted(frame), times(this.father(point.father, at), point.trsf)));
       }
+      default:
+        return this.answered(name, args, at);
+    }
+  }
+
+  /** What the controller answers, and what is computed. */
+  private answered(name: string, args: readonly Argument[], at: TextPlace): Value {
+    const given = (i: number): Expression => this.given(args, i, name, at);
+    switch (name) {
       case "toString": {
         const value = this.numberOf(given(args.length > 1 ? 1 : 0));
         return String(value);
