@@ -260,21 +260,7 @@ export class Machine extends Motions {
 
   /** Frames, flags and registers. */
   private setting(
-    action: Exclude<
-      Exclude<Action, { kind: "jump" | "jump-to" }>,
-      {
-        kind:
-          | "motion"
-          | "set"
-          | "wait"
-          | "wait-for"
-          | "message"
-          | "skip-condition"
-          | "offset-condition"
-          | "tool-offset-condition"
-          | "timeout";
-      }
-    >,
+    action: Extract<Action, { kind: "select" | "define" | "flag" | "move-register" | "pause" | "label" | "nothing" }>,
     at: Do,
   ): Step | undefined {
     switch (action.kind) {

@@ -16,6 +16,12 @@ const PER_DEG = 10_000;
 
 const ORIGIN: TextPlace = { line: 1, column: 1 };
 
+/** What is no motion, waits for nothing and sets no line. */
+type Handled = Exclude<
+  Statement,
+  { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
+>;
+
 /**
  * Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same
  * steps.
@@ -160,13 +166,7 @@ export class Machine extends Motions {
   }
 
   /** What calls, computes and sets. */
-  private handled(
-    statement: Exclude<
-      Statement,
-      { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
-    >,
-    frame: Frame,
-  ): void {
+  private handled(statement: Handled, frame: Frame): void {
     const { memory } = this;
     switch (statement.kind) {
       case "call":
@@ -220,13 +220,7 @@ export class Machine extends Motions {
 
   /** What is shown, computed, kept or set for the motions that follow. */
   private computedOrSet(
-    statement: Exclude<
-      Exclude<
-        Statement,
-        { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
-      >,
-      { kind: "call" | "argument" | "unknown" | "positions" | "frame" | "away" }
-    >,
+    statement: Exclude<Handled, { kind: "call" | "argument" | "unknown" | "positions" | "frame" | "away" }>,
   ): void {
     const { memory } = this;
     switch (statement.kind) {
