@@ -1,9 +1,11 @@
 import {
   falseIdentity,
   pose,
+  samplePlan,
   unrolled,
   type CommandOutcome,
   type Dialect,
+  type Plan,
   type Pose,
   type Program,
   type Refusal,
@@ -101,6 +103,8 @@ export interface VendorConnection extends RobotConnection {
   takes(program: Program): CommandOutcome;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
+  /** Why it would not be run from where the program that runs now ends, or the robot stands; null where it would. */
+  judge(program: Program, asText: boolean, despite?: readonly string[]): Promise<Refusal | null>;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   stop(emergency: boolean): void;
@@ -262,11 +266,12 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
   async function jobOf(
     program: Program,
     asText: boolean,
+    from_rad?: Float64Array,
   ): Promise<
     | { readonly kind: "job"; readonly job: RobotJob; readonly stuck: Refusal | null }
     | { readonly kind: "refused"; readonly why: Refusal }
   > {
-    const start_rad = controller.jointAngles().slice();
+    const start_rad = from_rad ?? controller.jointAngles().slice();
     const held = clear?.held();
     const laid = await (options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
       program,
@@ -277,7 +282,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       ...(asText && controller.runText ? { dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
-    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+    if (!from_rad && controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
       return { kind: "refused", why: movedMeanwhile(name) };
     const job: RobotJob = {
       program,
@@ -319,6 +324,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       clear?.end();
     }
   }
+  /** Where the program that runs, or ran last, ends. */
+  let end_rad: Float64Array | null = null;
   /** Stops that were asked for: a program that is still being planned then does not begin after it. */
   let stops = 0;
   return {
@@ -384,7 +391,14 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         // What cannot be planned cannot be checked: it is not sent to find out where it ends.
         if (answer.stuck) return refused(answer.stuck);
         const blocked = blockedBy(answer.job, despite, false);
+        end_rad = answer.job.plan ? endOf(answer.job.plan, robot) : null;
         return blocked ? refused(blocked) : carrying(answer.job, () => station.carryOut(commander, answer.job));
+      },
+      async judge(program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return unsaid;
+        const answer = await jobOf(program, asText, end_rad ?? controller.jointAngles().slice());
+        return answer.kind === "refused" ? answer.why : (answer.stuck ?? blockedBy(answer.job, despite, false));
       },
       takes(program) {
         const why = unsayable(program, false);
@@ -471,6 +485,13 @@ const cannotWatch = (brand: string, because: string): { readonly kind: "refused"
     hint: "Open it to command; it moves only when it is told to.",
   },
 });
+
+/** Posture at the end of a plan. */
+function endOf(plan: Plan, robot: Robot): Float64Array {
+  const q_rad = new Float64Array(robot.arm.joints.length);
+  samplePlan(plan, plan.duration_s, q_rad);
+  return q_rad;
+}
 
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: RobotConnection): Promise<CommandOutcome> {
