@@ -66,6 +66,8 @@ export interface ConnectedRobot<C extends RobotCommander = RobotCommander> {
   takes(program: Program): CommandOutcome;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
+  /** Why it would not be run from where the program that runs now ends, or the robot stands; null where it would. */
+  judge(program: Program, asText: boolean, despite?: readonly string[]): Promise<Refusal | null>;
   /** The same as `run` in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(commander: C, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   /** Anyone may. */

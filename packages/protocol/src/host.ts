@@ -1,50 +1,13 @@
-import {
-  parseProgram,
-  type CommandOutcome,
-  type ConnectedRobot,
-  type PreparedRun,
-  type Refusal,
-  type RobotCommander,
-  type Scheduler,
-} from "@twincell/core";
+import type { RobotCommander } from "@twincell/core";
+import { parseProgram, type CommandOutcome, type Refusal, type Scheduler } from "@twincell/core";
 import { auditEntryState, type AuditEntry } from "./acts.ts";
 import type { ConnectionRequest, RequestOf } from "./ask.ts";
-import { subscribeToPendant, type ServedVirtualPendant, type PendantSubscription } from "./pendant.ts";
+import { subscribeToPendant, type PendantSubscription } from "./pendant.ts";
 import type { Channel } from "./channel.ts";
+import { createProductions } from "./productions.ts";
+import type { OpenedConnection, ServedConnection, ServedGroup, ServedMember } from "./served.ts";
 import { requestOrEnd, PROTOCOL, write } from "./read.ts";
-import type { ConnectionInfo, ConnectionEvent, EventOf } from "./tell.ts";
-
-/** What a host needs of a station. */
-export interface ServedConnection<C extends RobotCommander = RobotCommander> extends ConnectedRobot<C> {
-  readonly words: ConnectionInfo;
-  readonly guard: { readonly state: Omit<EventOf<"guard">, "type" | "station" | "cell" | "kept_m"> };
-  readonly ahead: {
-    horizon_s: number;
-    onChange(
-      listen: (
-        words: {
-          readonly q_rad: Float64Array;
-          readonly in_s: number;
-          readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null;
-        } | null,
-      ) => void,
-    ): () => void;
-  };
-  /** The pendant of a virtual controller; null where a person stands before a real one. */
-  readonly pendant: ServedVirtualPendant | null;
-  onGuard(listen: () => void): () => void;
-}
-export interface ServedMember {
-  readonly station: ServedConnection;
-  readonly prepare: () => Promise<PreparedRun>;
-}
-export interface ServedGroup {
-  readonly outcome: CommandOutcome;
-  readonly each: ReadonlyMap<string, CommandOutcome>;
-}
-export type OpenedConnection =
-  | { readonly kind: "opened"; readonly station: ServedConnection }
-  | { readonly kind: "refused"; readonly why: Refusal };
+import type { ConnectionEvent, EventOf } from "./tell.ts";
 
 /** What an app brings to its host. */
 export interface RobotServerOptions {
@@ -114,6 +77,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     const text = write(message);
     for (const channel of channels) channel.send(text);
   };
+  const productions = createProductions(all);
   const linkWords = (station: ServedConnection): EventOf<"link"> | null => {
     const { link } = station;
     return (
@@ -242,6 +206,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     if (!entry) return;
     stations.delete(id);
     entry.forget();
+    productions.stopped(entry.station);
     for (const forget of closing) forget(entry.station);
     entry.station.close();
     all({ type: "closed", station: id });
@@ -352,6 +317,13 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
             if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
             return station.run(seat, parsed.program, ask.asText, ask.despite);
           }
+          case "produce":
+          case "replace":
+          case "intervene":
+          case "resume":
+          case "single-step":
+          case "breakpoints":
+            return productions.carryOut(who, station, seat, ask);
           case "pendant":
             return visitTo(station)?.act(ask.act) ?? noPendant(station);
           case "plug":
@@ -433,6 +405,8 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
         tell(guardWords(station));
         const link = linkWords(station);
         if (link) tell(link);
+        const production = productions.stateOf(station);
+        if (production) tell(production);
       }
       const leave = (): void => {
         if (gone) return;
@@ -467,6 +441,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
             case "stop": {
               const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
               for (const [, { station }] of meant) station.stop(ask.emergency);
+              for (const [, { station }] of meant) productions.stopped(station);
               for (const [id] of meant) tellAct(who, ask, id)(DONE);
               break;
             }

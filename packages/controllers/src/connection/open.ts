@@ -5,10 +5,12 @@ import type { Cannot } from "../driver/cannot.ts";
 import {
   falseIdentity,
   pose,
+  samplePlan,
   unrolled,
   type CommandOutcome,
   type ConnectedRobot,
   type Dialect,
+  type Plan,
   type Pose,
   type PreparedRun,
   type Program,
@@ -215,6 +217,8 @@ class VendorConnectionState {
   readonly unnotice: () => void;
   /** Stops that were asked for: a program that is still being planned then does not begin after it. */
   stops = 0;
+  /** Where the program that runs, or ran last, ends. */
+  #end_rad: Float64Array | null = null;
 
   constructor(
     options: OpenOptions,
@@ -320,11 +324,12 @@ class VendorConnectionState {
   async jobOf(
     program: Program,
     asText: boolean,
+    from_rad?: Float64Array,
   ): Promise<
     | { readonly kind: "job"; readonly job: RobotJob; readonly stuck: Refusal | null }
     | { readonly kind: "refused"; readonly why: Refusal }
   > {
-    const start_rad = this.controller.jointAngles().slice();
+    const start_rad = from_rad ?? this.controller.jointAngles().slice();
     const held = this.clear?.held();
     const laid = await (this.options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
       program,
@@ -335,7 +340,7 @@ class VendorConnectionState {
       ...(asText && this.controller.runText ? { dialect: this.dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
-    if (this.controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+    if (!from_rad && this.controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
       return { kind: "refused", why: movedMeanwhile(this.name) };
     const job: RobotJob = {
       program,
@@ -395,7 +400,15 @@ class VendorConnectionState {
     // What cannot be planned cannot be checked: it is not sent to find out where it ends.
     if (answer.stuck) return refused(answer.stuck);
     const blocked = this.blockedBy(answer.job, despite, false);
+    this.#end_rad = answer.job.plan ? endOf(answer.job.plan, this.robot) : null;
     return blocked ? refused(blocked) : this.carrying(answer.job, () => this.station.carryOut(commander, answer.job));
+  }
+
+  async judge(program: Program, asText: boolean, despite: readonly string[]): Promise<Refusal | null> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return unsaid;
+    const answer = await this.jobOf(program, asText, this.#end_rad ?? this.controller.jointAngles().slice());
+    return answer.kind === "refused" ? answer.why : (answer.stuck ?? this.blockedBy(answer.job, despite, false));
   }
 
   async preview(program: Program): Promise<CommandOutcome> {
@@ -494,6 +507,7 @@ function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
       return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
     },
     run: (commander, program, asText, despite = []) => own.run(commander, program, asText, despite),
+    judge: (program, asText, despite = []) => own.judge(program, asText, despite),
     takes(program) {
       const why = own.unsayable(program, false);
       return why ? refused(why) : DONE;
@@ -546,6 +560,13 @@ const cannotWatch = (brand: string, because: string): { readonly kind: "refused"
     hint: "Open it to command; it moves only when it is told to.",
   },
 });
+
+/** Posture at the end of a plan. */
+function endOf(plan: Plan, robot: Robot): Float64Array {
+  const q_rad = new Float64Array(robot.arm.joints.length);
+  samplePlan(plan, plan.duration_s, q_rad);
+  return q_rad;
+}
 
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: RobotConnection): Promise<CommandOutcome> {

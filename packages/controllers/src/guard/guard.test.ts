@@ -12,7 +12,8 @@ import { describe, expect, test } from "vitest";
 import { describeController } from "../testing/index.ts";
 import { createTwin } from "../twin/index.ts";
 import { createVirtualController } from "../virtual/index.ts";
-import { createGuard, type GuardOptions } from "./guard.ts";
+import { createGuard } from "./guard.ts";
+import type { GuardOptions } from "./interface.ts";
 import { jointMoveSpeed, speedBound } from "./speed.ts";
 
 const robot = robotById("staubli_rx90l")!;

@@ -1,4 +1,5 @@
-export { createGuard, GUARD_NOTICE, type Guard, type GuardOptions, type Commander } from "./guard.ts";
+export { createGuard, GUARD_NOTICE } from "./guard.ts";
+export type { Commander, Guard, GuardOptions } from "./interface.ts";
 export {
   AT_FIRST,
   guardStep,

@@ -96,7 +96,6 @@ const FLANGE: Pose<"flange", "tcp"> = { position: [0, 0, 0], quaternion: [0, 0, 
 const VERSION = { MajorVersion: 5, MinorVersion: 0 } as const;
 /** Clients ask for states all the time: who says nothing for so long is gone [s]. */
 const KEEP_ALIVE_S = 5;
-const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
 
 /**
  * A FANUC controller of numbers behind its Remote Motion Interface: one client, eight instructions waiting, servos,
@@ -595,7 +594,3 @@ function startedFanuc(own: FanucControllerState): FanucStarted {
     },
   };
 }
-export const fanucInput = (signal: string): number => {
-  const match = WIRE.exec(signal);
-  return match?.[1] === "DI" ? Number(match[2]) : NaN;
-};

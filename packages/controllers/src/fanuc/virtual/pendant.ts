@@ -1,6 +1,6 @@
 import type { SafetyState } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../../driver/index.ts";
-import { fanucInput, type VirtualFanuc } from "./controller.ts";
+import type { VirtualFanuc } from "./controller.ts";
 import type { FanucKey } from "./machine.ts";
 import { jogKeys } from "../../virtual/jog-keys.ts";
 
@@ -75,8 +75,15 @@ export function fanucPendant({
       pendant.fault(because);
     },
     setInput(signal, value) {
-      const n = fanucInput(signal);
+      const n = inputNumber(signal);
       if (n > 0) pendant.setInput(n, value === true || (typeof value === "number" && value !== 0));
     },
   };
+}
+
+const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
+/** Number of an input by its name; NaN where it is none. */
+function inputNumber(signal: string): number {
+  const match = WIRE.exec(signal);
+  return match?.[1] === "DI" ? Number(match[2]) : NaN;
 }
