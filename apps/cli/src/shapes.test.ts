@@ -74,6 +74,36 @@ test("import puts the parts of an OBJ into a new cell with names, colours and on
   expect(upper[0] - lower[0]).toBeCloseTo(0.009, 6);
 });
 
+test("T-16 import --robot PATH makes a cell that brings the robot of a file with it; it is checked in that cell", () => {
+  const made = twincell("import", "--robot", "examples/robots/small-arm.json", "-o", at("own.json"));
+  expect([made.code, made.out.trim()]).toEqual([0, ""]);
+  const cell = openDocument(readFileSync(at("own.json"), "utf8"));
+  if (cell.kind !== "opened") throw new Error(cell.kind);
+  expect(cell.document.robot.id).toMatch(/^small_arm_[0-9a-f]{8}$/);
+  const step = {
+    id: "a",
+    type: "move",
+    path: "ptp",
+    target: { q: [0.5, 0, 0, 0, 0.3, 0] },
+    speed: { ratio: 0.5 },
+    blend_m: 0,
+  };
+  const [program] = cell.document.programs;
+  const check = twincell(
+    "check",
+    write("own-program.json", JSON.stringify({ ...program, steps: [step] })),
+    "--cell",
+    at("own.json"),
+    "--json",
+  );
+  expect([check.code, check.err]).toEqual([0, ""]);
+  const bad = JSON.parse(readFileSync(at("own.json"), "utf8")) as { robot: { file: { joints: unknown[] } } };
+  bad.robot.file.joints = [];
+  const refused = twincell("check", at("own-program.json"), "--cell", write("bad.json", JSON.stringify(bad)));
+  expect(refused.code).not.toBe(0);
+  expect(refused.err).toContain("robot.file.joints: A robot has 1 to 32 joints; here it has 0.");
+});
+
 test("T-49: mesh writes a GLB with the triangles asked for and prints faces, materials, bounds and both deviations in metres", () => {
   const positions: number[] = [];
   const indices: number[] = [];

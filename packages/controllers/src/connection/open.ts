@@ -1,5 +1,6 @@
 import {
   falseIdentity,
+  isOwnRobot,
   pose,
   unrolled,
   type CommandOutcome,
@@ -11,6 +12,7 @@ import {
   type Scheduler,
   type Signals,
   type Step,
+  robotFileOf,
 } from "@twincell/core";
 import {
   createRealController,
@@ -82,6 +84,8 @@ export interface VendorConnection extends RobotConnection {
     readonly robot: string;
     readonly virtual: boolean;
     readonly watchdog: string;
+    /** The robot file of a robot that is in no library, without its meshes: those who look on learn it from here. */
+    readonly robotFile?: unknown;
   };
   /** null where a person stands before a real one. */
   readonly pendant: VirtualPendant | null;
@@ -116,6 +120,8 @@ export interface VendorConnection extends RobotConnection {
 export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
+
+const withoutMeshes = ({ links: _links, ...robot }: Robot): unknown => robotFileOf(robot);
 
 /** Why a robot does not stand on a controller of that kind, by section and kinematics; null where it does. */
 function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
@@ -315,6 +321,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         brand: brand.id,
         robot: robot.id,
         virtual: virtualPendant !== null,
+        ...(isOwnRobot(robot) ? { robotFile: withoutMeshes(robot) } : {}),
         watchdog:
           adapter.watchdog.kind === "robot"
             ? `The robot stops by itself within ${Math.round(adapter.watchdog.within_s * 1000)} ms.`

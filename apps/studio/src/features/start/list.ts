@@ -19,7 +19,8 @@ export function findCells(
   const wanted = query.trim().toLowerCase();
   if (wanted === "") return cells.map(cell => ({ cell, where: null }));
   return cells.flatMap((cell): FoundCell[] => {
-    if (`${cell.name} ${robotName(cell.robot)}`.toLowerCase().includes(wanted)) return [{ cell, where: null }];
+    if (`${cell.name} ${cell.robotName ?? robotName(cell.robot)}`.toLowerCase().includes(wanted))
+      return [{ cell, where: null }];
     const where = cell.names.find(name => name.toLowerCase().includes(wanted));
     return where === undefined ? [] : [{ cell, where }];
   });

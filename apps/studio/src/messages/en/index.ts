@@ -5,6 +5,7 @@ import { direct } from "./direct.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
+import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
@@ -25,6 +26,7 @@ export const en = {
   people: peopleWords,
   headset,
   offline,
+  own,
   phone,
   scene,
   text: textWords,
