@@ -33,6 +33,9 @@ const choose = (page: Page, name: string, content: Uint8Array | string): Promise
   page
     .locator("[data-file-input]")
     .setInputFiles([{ name, mimeType: "application/octet-stream", buffer: Buffer.from(content) }]);
+/** A dialog comes in by fading: a picture is taken when it is there. */
+const settled = (page: Page): Promise<unknown> =>
+  page.getByRole("dialog").evaluate(dialog => Promise.all(dialog.getAnimations().map(animation => animation.finished)));
 const robotHere = (page: Page): Promise<string> =>
   page.evaluate(() => window.twincell.stores.cellStore.getState().document!.robot.id);
 /** Two taught postures, judged with everything that stands in the cell. */
@@ -60,6 +63,7 @@ test("T-16 a ZIP of a URDF becomes the robot of the cell in three steps: drawn w
   const question = page.getByRole("dialog");
   await question.getByText("bench_arm.urdf describes a robot").waitFor({ timeout: 60_000 });
   expect(await question.textContent()).toContain("6 axes · solved in closed form");
+  await settled(page);
   await page.screenshot({ path: picture("own-robot-question") });
   await question.getByRole("button", { name: "Use as the robot of this cell" }).click();
   await page.waitForFunction(() =>
@@ -107,6 +111,7 @@ test("T-16 a typed D-H table without a closed form is a robot: solved numericall
   await status.getByText("The alpha of row 2 is not a finite number.").waitFor();
   await twist.fill("20");
   await status.getByText("6 axes · solved numerically").waitFor();
+  await settled(page);
   await page.screenshot({ path: picture("own-robot-table") });
   await page.getByRole("button", { name: "Use this robot" }).click();
   await page.waitForFunction(() =>
@@ -127,7 +132,69 @@ test("T-16 a typed D-H table without a closed form is a robot: solved numericall
   await page.evaluate(() => window.twincell.run("cell.robot"));
   const card = page.getByRole("radio", { name: /Odd arm/ });
   await card.waitFor({ state: "attached" });
+  await settled(page);
   await page.screenshot({ path: picture("own-robot-chooser") });
   expect(await robotHere(page)).toMatch(/^Odd_arm_[0-9a-f]{8}$/);
+  expect(problems).toEqual([]);
+});
+
+test("X-05, M-63 a gripper is put on by a click: the TCP follows its opening, 149 to 163 mm; cups take over what was taught and all is checked anew", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await page.evaluate(() => window.twincell.run("file.new"));
+  // A cell in which nothing is taught opens bent over the work: the flange points down, and the arm can go down.
+  const ready = await page.evaluate(() => ({
+    z: window.twincell.live.now().worldFromTcp.position[2],
+    bent: Math.abs(window.twincell.live.now().q_rad[2]!),
+  }));
+  expect(ready.z).toBeLessThan(1);
+  expect(ready.bent).toBeGreaterThan(0.3);
+  await page
+    .getByRole("tab", { name: "Cell", exact: true })
+    .or(page.getByRole("radio", { name: "Cell", exact: true }))
+    .first()
+    .click();
+  const library = page.getByRole("region", { name: "Part library" });
+  await library.getByRole("button", { name: /^Tools/ }).click();
+  await library.getByRole("button", { name: /^Two fingers/ }).click();
+  const tcp = () =>
+    page.evaluate(() => {
+      const { document } = window.twincell.stores.cellStore.getState();
+      return document!.tools.find(({ name }) => name === document!.tool)!.flangeFromTcp.position[2];
+    });
+  expect(await tcp()).toBeCloseTo(0.149, 3);
+  const lower = await page.evaluate(() => window.twincell.live.now().worldFromTcp.position[2]);
+  expect(ready.z - lower).toBeCloseTo(0.149, 3);
+  const opening = page.getByRole("textbox", { name: "Opening" });
+  await opening.fill("0");
+  await opening.press("Enter");
+  expect(await tcp()).toBeCloseTo(0.1626, 3);
+  await page.screenshot({ path: picture("tool-two-fingers") });
+  const q = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
+  await page.evaluate(() => window.twincell.run("program.record-lin"));
+  await page.evaluate(wanted => window.twincell.live.showJoints(wanted), [q[0]! + 0.3, ...q.slice(1)]);
+  await page.evaluate(() => window.twincell.run("program.record-lin"));
+  const checked = (steps: number) =>
+    page.waitForFunction(
+      n => {
+        const { verdict, checking } = window.twincell.stores.playStore.getState();
+        return checking === null && verdict !== null && verdict.steps.length === n;
+      },
+      steps,
+      { timeout: 60_000 },
+    );
+  await checked(2);
+  await library.getByRole("button", { name: /^Vacuum cups/ }).click();
+  await page.getByRole("button", { name: "Take over what was taught with Two fingers 85 mm" }).click();
+  const tools = await page.evaluate(() =>
+    window.twincell.stores.cellStore
+      .getState()
+      .document!.programs.flatMap(program =>
+        "steps" in program ? program.steps.flatMap(step => (step.type === "move" ? [step.target.tool] : [])) : [],
+      ),
+  );
+  expect(tools).toEqual(["Vacuum cups", "Vacuum cups"]);
+  await checked(2);
+  await page.screenshot({ path: picture("tool-vacuum-cups") });
   expect(problems).toEqual([]);
 });

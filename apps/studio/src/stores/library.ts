@@ -1,4 +1,12 @@
-import { emptyCell, EXAMPLES, isTextProgram, saveDocument, type CellDocument } from "@twincell/project";
+import {
+  emptyCell,
+  EXAMPLES,
+  isTextProgram,
+  modelsOf,
+  saveDocument,
+  type CellDocument,
+  type ModelFacts,
+} from "@twincell/project";
 import { robotById } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 import { openSaved } from "./catalogue.ts";
@@ -32,6 +40,8 @@ export interface StoredCell extends CellFacts {
   readonly versions: readonly CellVersion[];
   /** Names of its programs, points, objects, frames and tools, for the search. */
   readonly names: readonly string[];
+  /** What its objects are, weigh and do, for the search over models; missing in what earlier releases kept. */
+  readonly models?: readonly ModelFacts[];
 }
 export interface LibraryState {
   /** Newest first; null until they were read. */
@@ -247,7 +257,7 @@ const contentKey = (id: string, number: number): string => `${CONTENT}${id}.${nu
 const given = (facts: { [key in keyof CellFacts]: CellFacts[key] | undefined }): CellFacts =>
   Object.fromEntries(Object.entries(facts).filter(([, value]) => value !== undefined));
 
-const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | "robotName" | "names"> => ({
+const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | "robotName" | "names" | "models"> => ({
   name: document.name,
   robot: document.robot.id,
   ...(document.robot.file === undefined ? {} : { robotName: robotById(document.robot.id)?.name ?? "" }),
@@ -261,6 +271,7 @@ const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | 
         : [program.name, ...program.steps.flatMap(step => ("name" in step && step.name ? [step.name] : []))],
     ),
   ],
+  models: modelsOf(document),
 });
 
 /** Whether nothing of an example was changed. Only the one of that name is written out: to write all takes 60 ms. */

@@ -1,7 +1,36 @@
+import { existsSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import { strFromU8, strToU8 } from "fflate";
 import { expect, test } from "vitest";
-import { boxMesh, flangePose, linkShapes, linkSolids, robotById, solveAll } from "@twincell/core";
-import { filesInMemory, mayBeRobot, robotFromFiles, writeDhTable, writeStl } from "../index.ts";
+import {
+  boxMesh,
+  CellCollider,
+  flangePose,
+  identity,
+  linkPoses,
+  linkShapes,
+  linkSolids,
+  pose,
+  robotById,
+  solveAll,
+  transformMesh,
+  type Pose,
+  type Vector3,
+} from "@twincell/core";
+import {
+  armFromUrdf,
+  filesInMemory,
+  loadMeshes,
+  mayBeRobot,
+  readRobot,
+  robotFromFiles,
+  solidShapes,
+  urdfSolids,
+  writeDhTable,
+  writeStl,
+  type UrdfRead,
+} from "../index.ts";
+import { disk } from "../testing/disk.ts";
 
 const DH = `# convention: standard
 # units: mm deg
@@ -98,3 +127,57 @@ test("T-16 bad robot files are one sentence with the place", async () => {
     "No joint moves",
   );
 });
+
+const IRB = fileURLToPath(new URL("../../../../../shared/robots/abb_irb120/robot.urdf", import.meta.url));
+
+test.skipIf(!existsSync(IRB))(
+  "X-11 each part collides where its maker's mesh is: contact within ±2 mm of its surface, from five sides",
+  async () => {
+    const answer = await robotFromFiles(IRB, disk);
+    if (answer.kind !== "robot") throw new Error(answer.sentence);
+    const { robot } = answer;
+    const chain = armFromUrdf((readRobot(IRB, disk) as UrdfRead).robot);
+    if (chain.kind !== "chain") throw new Error(chain.sentence);
+    // The maker's own meshes of what moves, every triangle, at home. The foot may stand in things.
+    const links = Array.from({ length: 7 }, () => identity<"base", "link">());
+    linkPoses(robot.arm, robot.home_rad, links);
+    const { meshOf } = loadMeshes(solidShapes(chain), IRB, disk);
+    const maker = urdfSolids(chain, meshOf)
+      .solids.filter(({ link }) => link > 0)
+      .map(({ link, mesh }) => transformMesh(mesh, links[link] as Pose));
+    const side = 0.01;
+    const touches = (centre: Vector3): boolean =>
+      new CellCollider(
+        {
+          worldFromBase: identity(),
+          links: linkSolids(robot),
+          objects: [{ id: "probe", name: "probe", worldFromObject: pose(centre), mesh: boxMesh([side, side, side]) }],
+          allowedPairs: [],
+        },
+        robot.arm,
+      ).collides(Float64Array.from(robot.home_rad));
+    for (const [axis, sign] of [
+      [0, 1],
+      [0, -1],
+      [1, 1],
+      [1, -1],
+      [2, 1],
+    ] as const) {
+      let extreme: Vector3 = [0, 0, 0];
+      let most = -Infinity;
+      for (const { positions } of maker)
+        for (let i = 0; i < positions.length; i += 3)
+          if (sign * positions[i + axis]! > most) {
+            most = sign * positions[i + axis]!;
+            extreme = [positions[i]!, positions[i + 1]!, positions[i + 2]!];
+          }
+      const probe = (gap_m: number): Vector3 => {
+        const centre: Vector3 = [...extreme];
+        centre[axis] += sign * (side / 2 + gap_m);
+        return centre;
+      };
+      expect([axis, sign, touches(probe(0.002)), touches(probe(-0.002))]).toEqual([axis, sign, false, true]);
+    }
+  },
+  60_000,
+);

@@ -1,6 +1,18 @@
-import type { Pose, Vector3 } from "@twincell/core";
-import type { ObjectRecord } from "@twincell/project";
+import { meshBounds, type Pose, type Vector3 } from "@twincell/core";
+import {
+  freeToolName,
+  rescaledObjects,
+  shapeMesh,
+  toolOfObject,
+  withNewTool,
+  withObjects,
+  type ObjectRecord,
+} from "@twincell/project";
+import { useMemo } from "react";
+import { cellStore } from "../../stores/cell.ts";
 import { commit, withObject } from "../../stores/document.ts";
+import { notify } from "../../stores/notices.ts";
+import { select } from "../../stores/selection.ts";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
@@ -97,6 +109,12 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
             />
           </div>
         )}
+        {shape.kind === "mesh" && <MeshSize object={object} />}
+        {object.role !== "workpiece" && shape.kind !== "part" && (
+          <button className="btn small" title={words.tools.makeToolSays} onClick={() => makeTool(object)}>
+            {words.tools.makeTool(object.name)}
+          </button>
+        )}
         {shape.kind === "mesh" && (
           <div className="pair">
             <span className="label">{words.inspector.shape}</span>
@@ -112,4 +130,77 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
       </div>
     </section>
   );
+}
+
+const LEAST_M = 0.0001;
+const MOST_M = 1000;
+
+/** The sides of an imported part, and the factor that makes all of it larger or smaller (row M-08). */
+function MeshSize({ object }: { object: ObjectRecord }) {
+  const { shape } = object;
+  const size_m = useMemo(() => {
+    const { lower, upper } = meshBounds(shapeMesh(shape));
+    return [0, 1, 2].map(k => upper[k]! - lower[k]!);
+  }, [shape]);
+  const scale = (factor: number): void => {
+    if (!(factor > 0) || factor === 1) return;
+    commit(words.undo.size, document => withObjects(document, rescaledObjects([object], factor)));
+  };
+  return (
+    <>
+      <h3 className="label">
+        {words.inspector.size} <span className="dim">{shownUnit("length")}</span>
+      </h3>
+      <div className="fields-3">
+        {MARKS.map((mark, i) => (
+          <NumberField
+            key={mark}
+            label={`${words.inspector.size} ${SIDES[i]}`}
+            mark={mark}
+            quantity="length"
+            unitAbove
+            min={LEAST_M}
+            max={MOST_M}
+            value={size_m[i]!}
+            disabled={!(size_m[i]! > 0)}
+            onChange={(value, done) => {
+              if (done) scale(value / size_m[i]!);
+            }}
+          />
+        ))}
+      </div>
+      <div className="pair">
+        <span className="label">{words.inspector.scale}</span>
+        <NumberField
+          label={words.inspector.scale}
+          mark="×"
+          quantity="plain"
+          decimals={4}
+          min={0.0001}
+          max={10_000}
+          value={1}
+          onChange={(value, done) => {
+            if (done) scale(value);
+          }}
+        />
+      </div>
+    </>
+  );
+}
+
+/** The object leaves the cell and comes to the flange as the tool in use. */
+function makeTool(object: ObjectRecord): void {
+  const { document } = cellStore.getState();
+  if (!document) return;
+  const name = freeToolName(document, object.name);
+  const end_m = meshBounds(shapeMesh(object.shape)).upper[2];
+  const made = commit(words.tools.makeTool(object.name), before =>
+    withNewTool(
+      { ...before, objects: before.objects.filter(({ id }) => id !== object.id) },
+      toolOfObject(object, name, end_m),
+    ),
+  );
+  if (!made) return;
+  select({ kind: "tool" });
+  notify("done", words.tools.mounted(name));
 }

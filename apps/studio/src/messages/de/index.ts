@@ -15,6 +15,7 @@ export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** German, as robot programmers say it; nobody is addressed, what to do stands in the infinitive. */
@@ -33,5 +34,6 @@ export const catalogue: Translation<typeof en> = {
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };

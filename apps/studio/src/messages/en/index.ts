@@ -12,6 +12,7 @@ import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -30,5 +31,6 @@ export const en = {
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };
