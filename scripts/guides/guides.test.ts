@@ -27,6 +27,19 @@ describe("docs/add-a-language.md, followed in a copy of apps/studio", () => {
   });
 });
 
+describe("docs/add-a-panel.md, followed in a copy of apps/studio", () => {
+  const followed = followGuide("docs/add-a-panel.md", "apps/studio");
+  afterAll(() => {
+    followed.remove();
+  });
+  test("what it writes compiles with the studio's own settings", { timeout: 120_000 }, () => {
+    expect(followed.compile()).toBe("");
+  });
+  test("the test that it writes passes", { timeout: 120_000 }, () => {
+    expect(followed.test()).toBe("");
+  });
+});
+
 test("only labelled blocks are carried out", () => {
   expect(blocksOf("```ts a.ts\nx\n```\n```ts\ny\n```\n")).toEqual([{ kind: "ts", path: "a.ts", text: "x\n" }]);
 });

@@ -4,6 +4,8 @@ import { fileURLToPath } from "node:url";
 import type {} from "../../src/console.ts";
 import type {} from "../../src/scene/scene-probe.tsx";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
+import { onTestFinished } from "vitest";
+import { getCurrentTest } from "vitest/suite";
 export type { Page };
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
@@ -89,7 +91,10 @@ export class Studio {
     return studio;
   }
 
-  /** A fresh person: nothing stored, no permission given. */
+  /**
+   * A fresh person: nothing stored, no permission given. What a test opens closes with it, since a page that nobody
+   * looks at goes on drawing and takes the time of the next test; what `beforeAll` opens stays for all of them.
+   */
   async open(options: OpenOptions = {}): Promise<StudioPage> {
     const context = await this.browser.newContext({
       viewport: { width: options.width ?? 1280, height: options.height ?? 800 },
@@ -100,6 +105,7 @@ export class Studio {
       colorScheme: options.theme ?? "dark",
       locale: options.locale ?? "en-US",
     });
+    if (getCurrentTest() !== undefined) onTestFinished(() => context.close());
     const page = await context.newPage();
     const problems: string[] = [];
     page.on("pageerror", problem => problems.push(problem.message));

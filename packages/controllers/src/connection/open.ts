@@ -2,9 +2,11 @@ import {
   falseIdentity,
   isOwnRobot,
   pose,
+  samplePlan,
   unrolled,
   type CommandOutcome,
   type Dialect,
+  type Plan,
   type Pose,
   type Program,
   type Refusal,
@@ -17,6 +19,8 @@ import {
 import {
   createRealController,
   drivesRobot,
+  reachableSteps,
+  stepsRefusal,
   type DriverKind,
   type ControllerData,
   type PortNumbers,
@@ -99,8 +103,12 @@ export interface VendorConnection extends RobotConnection {
    *   contact all the same.
    */
   run(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
+  /** Whether every step of it can be told over this connection, one by one; refused with all that cannot. */
+  takes(program: Program): CommandOutcome;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
+  /** Why it would not be run from where the program that runs now ends, or the robot stands; null where it would. */
+  judge(program: Program, asText: boolean, despite?: readonly string[]): Promise<Refusal | null>;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   stop(emergency: boolean): void;
@@ -246,17 +254,30 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     notices.call(why);
   });
   /**
+   * What of a program an open connection cannot be told step by step; null where it goes there as text, which its
+   * language has been asked about.
+   */
+  const unsayable = (program: Program, asText: boolean): Refusal | null => {
+    if (!controller.isConnected || (asText && controller.runText)) return null;
+    const terminal = terminalsOf(program, brand);
+    return stepsRefusal(
+      [...reachableSteps(program)].map(step => withLines(step, terminal)),
+      controller,
+    );
+  };
+  /**
    * The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not
    * sent.
    */
   async function jobOf(
     program: Program,
     asText: boolean,
+    from_rad?: Float64Array,
   ): Promise<
     | { readonly kind: "job"; readonly job: RobotJob; readonly stuck: Refusal | null }
     | { readonly kind: "refused"; readonly why: Refusal }
   > {
-    const start_rad = controller.jointAngles().slice();
+    const start_rad = from_rad ?? controller.jointAngles().slice();
     const held = clear?.held();
     const laid = await (options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
       program,
@@ -267,7 +288,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       ...(asText && controller.runText ? { dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
-    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+    if (!from_rad && controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
       return { kind: "refused", why: movedMeanwhile(name) };
     const job: RobotJob = {
       program,
@@ -309,6 +330,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       clear?.end();
     }
   }
+  /** Where the program that runs, or ran last, ends. */
+  let end_rad: Float64Array | null = null;
   /** Stops that were asked for: a program that is still being planned then does not begin after it. */
   let stops = 0;
   return {
@@ -366,6 +389,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
       },
       async run(commander, program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return refused(unsaid);
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
@@ -373,9 +398,22 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         // What cannot be planned cannot be checked: it is not sent to find out where it ends.
         if (answer.stuck) return refused(answer.stuck);
         const blocked = blockedBy(answer.job, despite, false);
+        end_rad = answer.job.plan ? endOf(answer.job.plan, robot) : null;
         return blocked ? refused(blocked) : carrying(answer.job, () => station.carryOut(commander, answer.job));
       },
+      async judge(program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return unsaid;
+        const answer = await jobOf(program, asText, end_rad ?? controller.jointAngles().slice());
+        return answer.kind === "refused" ? answer.why : (answer.stuck ?? blockedBy(answer.job, despite, false));
+      },
+      takes(program) {
+        const why = unsayable(program, false);
+        return why ? refused(why) : DONE;
+      },
       async preview(program) {
+        const unsaid = unsayable(program, true);
+        if (unsaid) return refused(unsaid);
         const answer = await jobOf(program, false);
         if (answer.kind === "refused") return answer;
         const {
@@ -395,6 +433,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
           : DONE;
       },
       async prepare(commander, program, asText, despite = []) {
+        const unsaid = unsayable(program, asText);
+        if (unsaid) return { kind: "refused", why: unsaid };
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
@@ -417,15 +457,19 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
   };
 }
 
+/** What the lines of a program are called at the controller. */
+const terminalsOf =
+  (program: Program, brand: DriverKind) =>
+  (name: string): string => {
+    const line = program.signals[name];
+    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
+  };
 /**
  * The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions
  * too.
  */
 function* atTerminals(program: Program, brand: DriverKind, signals?: Signals): Generator<Step> {
-  const terminal = (name: string): string => {
-    const line = program.signals[name];
-    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
-  };
+  const terminal = terminalsOf(program, brand);
   const read = signals && {
     read: (name: string) => signals.read(terminal(name)),
     write: (name: string, value: boolean | number) => {
@@ -448,6 +492,13 @@ const cannotWatch = (brand: string, because: string): { readonly kind: "refused"
     hint: "Open it to command; it moves only when it is told to.",
   },
 });
+
+/** Posture at the end of a plan. */
+function endOf(plan: Plan, robot: Robot): Float64Array {
+  const q_rad = new Float64Array(robot.arm.joints.length);
+  samplePlan(plan, plan.duration_s, q_rad);
+  return q_rad;
+}
 
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: RobotConnection): Promise<CommandOutcome> {

@@ -28,6 +28,7 @@ import {
 } from "../refusals.ts";
 import type { ControllerAdapter } from "./adapter.ts";
 import { keepLink } from "./link.ts";
+import { stepRefusal } from "./sayable.ts";
 import { sendSteps } from "./steps.ts";
 import { linkDown, notOpen, resetUnseen, wasStopped } from "./words.ts";
 import { DONE, refused } from "../outcomes.ts";
@@ -312,6 +313,7 @@ export function createRealController(options: RealOptions): RealController {
       const why = unfit();
       return why ? refuse(why) : send(steps, context);
     },
+    cannotCarryOut: step => stepRefusal(step, adapter, robot),
     stop(emergency = false) {
       // Even when the link looks closed: a word too many does no harm.
       adapter.stop(emergency);

@@ -10,7 +10,7 @@ import {
   jointsOfAxes,
   axesOfJoints,
 } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../driver/index.ts";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../driver/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
 import { FTP_PORT, programOf } from "./codec-ftp.ts";
 import {
@@ -64,6 +64,7 @@ const PATIENCE_S = 2;
 const STANDS_DEG = 2e-4;
 /** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
 const STALE_S = 0.08;
+const OUTPUT = /^DO\[([0-9]{1,4})\]$/;
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 const noAnswer = (sentence: string): Refusal =>
   refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
@@ -341,16 +342,31 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
     return { kind: "open" };
   }
 
-  async function move(motion: AdapterMotion): Promise<CommandOutcome> {
-    if (motion.path === "arc")
-      return refused(
-        refusal(
+  function cannotSay(order: AdapterOrder): Refusal | null {
+    if (order.kind === "signal")
+      return OUTPUT.test(order.signal) && typeof order.value === "boolean"
+        ? null
+        : refusal(
+            "fanuc.line",
+            `“${order.signal}” is no digital output of the controller.`,
+            "Name it DO[1] and so on.",
+          );
+    if (order.kind === "gripper")
+      return options.gripperOutput === undefined
+        ? refusal("fanuc.gripper", "Which output the gripper hangs on is not given.", "Give the number of its DO.")
+        : null;
+    return order.path === "arc"
+      ? refusal(
           "fanuc.arc",
           "Arcs are not sent over this interface: their points need FANUC's words for a posture, which have not been tried.",
           "Run the program as text of the controller's own language, or use lines.",
-        ),
-      );
-    const isLine = motion.path === "line";
+        )
+      : null;
+  }
+  async function move(motion: AdapterMotion): Promise<CommandOutcome> {
+    const why = cannotSay(motion);
+    if (why) return refused(why);
+    const isLine = motion.path !== "joints";
     const shown = axesOfJoints(joints!, motion.q_rad, new Float64Array(JOINTS));
     return instruct(
       isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep",
@@ -463,6 +479,7 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
     stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
     open,
     close,
+    cannotSay,
     move,
     handText,
     async runText(files: readonly EmittedFile[]) {
@@ -506,20 +523,15 @@ export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdap
       return DONE;
     },
     setSignal(signal, value) {
-      const n = /^DO\[([0-9]{1,4})\]$/.exec(signal);
-      if (!n || typeof value !== "boolean")
-        return refusal("fanuc.line", `“${signal}” is no digital output of the controller.`, "Name it DO[1] and so on.");
-      void order("FRC_WriteDOUT", { PortNumber: Number(n[1]), PortValue: value ? "ON" : "OFF" });
+      const why = cannotSay({ kind: "signal", signal, value });
+      if (why) return why;
+      void order("FRC_WriteDOUT", { PortNumber: Number(OUTPUT.exec(signal)![1]), PortValue: value ? "ON" : "OFF" });
       values.set(signal, value);
       return null;
     },
     setGripper(closed) {
-      if (options.gripperOutput === undefined)
-        return refusal(
-          "fanuc.gripper",
-          "Which output the gripper hangs on is not given.",
-          "Give the number of its DO.",
-        );
+      const why = cannotSay({ kind: "gripper", closed });
+      if (why) return why;
       void order("FRC_WriteDOUT", { PortNumber: options.gripperOutput, PortValue: closed ? "ON" : "OFF" });
       lent.gripperClosed = closed;
       return null;

@@ -320,6 +320,20 @@ describe("guard", () => {
       expect(guard.state).toMatchObject({ motion: "at-rest", trip: "none" });
     });
 
+    test("a virtual robot that was put elsewhere is not taken for one that raced there", async () => {
+      const { scheduler, real, me, guard } = bench({ isSafe: q_rad => q_rad[0]! < 0.9 });
+      await scheduler.elapse(0.1);
+      // Far from where it stood, and on towards what is in the way: 0.6 rad in one sample would not be stopped in time.
+      expect(real.jumpTo(turned(0.6)).kind).toBe("done");
+      guard.jumped();
+      const there = me.robot.run(
+        [{ id: "on", type: "move", path: "ptp", target: { q: turned(0.7) }, speed: { ratio: 0.2 }, blend_m: 0 }],
+        { tools: {}, frames: {} },
+      );
+      await scheduler.elapse(3);
+      expect(await there).toEqual({ kind: "done" });
+    });
+
     test("a robot that stands too near to something may move away, not nearer", async () => {
       const { scheduler, real, me } = bench({ isSafe });
       real.jumpTo(turned(0.95));

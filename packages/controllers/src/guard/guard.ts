@@ -109,6 +109,8 @@ export interface Guard {
   follow(path: KnownPath | null): void;
   /** What was safe on the way ahead may not be any more: something is carried now that was not, or the reverse. */
   lookAgain(): void;
+  /** A virtual robot was put where it stands now without moving there: that is no speed, and no way ahead. */
+  jumped(): void;
   /** The cell or the tool is another from now on; what moves is judged by it from its next sample on. */
   setCell(cell: GuardedCell): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
@@ -304,6 +306,11 @@ export function createGuard(options: GuardOptions): Guard {
     planned?.forget();
     straight?.forget();
   };
+  const jumped = (): void => {
+    forecast.standAt(controller.jointAngles());
+    // Speeds of the tool are measured from one sample to the next.
+    tcp(q_rad, tip);
+  };
 
   const watchedOnly = (): Refusal | null => (state.watching ? denialRefusal("watching", robot.name, null) : null);
   const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
@@ -472,6 +479,7 @@ export function createGuard(options: GuardOptions): Guard {
         moveToPose: baseFromFlange => command(who, null, () => controller.moveToPose(baseFromFlange)),
         moveToZero: () => command(who, new Float64Array(n), () => controller.moveToZero()),
         run: (steps, context) => command(who, null, () => controller.run(steps, context)),
+        cannotCarryOut: step => controller.cannotCarryOut(step),
         stop: emergency => {
           guard.stop(emergency);
         },
@@ -493,6 +501,7 @@ export function createGuard(options: GuardOptions): Guard {
                 const why = watchedOnly() ?? pointRefusal(target_rad) ?? send({ type: "ask", who });
                 if (why) return refused(why);
                 const outcome = jumpTo(target_rad);
+                if (outcome.kind === "done") jumped();
                 send({ type: "ended" });
                 return outcome;
               },
@@ -521,6 +530,7 @@ export function createGuard(options: GuardOptions): Guard {
       planned = path && new PathAhead(path, n);
     },
     lookAgain,
+    jumped,
     setCell(cell) {
       lookAgain();
       ({ isSafe, contactsAt, gripper } = cell);

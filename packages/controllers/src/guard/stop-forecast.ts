@@ -48,6 +48,14 @@ export class StopForecast {
     return REACTION_S + this.#delay_s + this.#braking_s;
   }
 
+  /** It stands there, without having moved there: how far that is from where it stood says nothing of its speed. */
+  standAt(q_rad: ArrayLike<number>): void {
+    this.q_rad.set(q_rad);
+    this.ahead_rad.set(q_rad);
+    this.#rate_rad_s.fill(0);
+    this.#then_rad_s.fill(0);
+  }
+
   /** @param dt_s  since the sample before; NaN where that is not known. */
   take({ q_rad, target_rad }: JointSample, dt_s: number): void {
     const known = dt_s > 0;

@@ -191,6 +191,7 @@ export function createTwin(options: TwinOptions): Twin {
         () => real.run(steps, context),
         () => null,
       ),
+    cannotCarryOut: step => real.cannotCarryOut(step),
     stop(emergency = false) {
       note("command", emergency ? "emergency stop" : "stop");
       real.stop(emergency);

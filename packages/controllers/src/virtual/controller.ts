@@ -296,6 +296,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     },
     moveJoints: target_rad => moveRobotJoints(target_rad),
     moveToZero: () => moveRobotJoints(new Float64Array(n)),
+    cannotCarryOut: () => null,
     async moveToPose(baseFromFlange) {
       if (!solve) {
         return refuse({

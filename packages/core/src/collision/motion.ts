@@ -35,6 +35,11 @@ export interface MotionOptions {
   readonly watched?: (pair: SolidPair) => boolean;
   /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
   readonly keepsMargin?: (pair: SolidPair) => boolean;
+  /**
+   * How far each joint may be from the motion in either direction [rad]: what is proven clear is then clear for all
+   * postures so near to it.
+   */
+  readonly slack_rad?: ArrayLike<number>;
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
@@ -86,7 +91,12 @@ export function checkMotion(
   const pairs = collider.pairs;
   const rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
-  const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0));
+  const { slack_rad } = options;
+  const margins = pairs.map(
+    pair =>
+      (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0) +
+      (slack_rad === undefined ? 0 : relativeRate(pair, slack_rad)),
+  );
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i).filter(i => watched(pairs[i]!)) }];
   let checks = 0;

@@ -326,6 +326,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     // A virtual robot may jump (row T-18): it starts from where the robot on screen stands.
     const jumped = virtual.jumpTo(theLive().q_rad);
     if (jumped.kind !== "done") return jumped;
+    guard.jumped();
 
     const startedAt = new Date(world.clock_ms());
     const id = startedAt.toISOString().replace(/[:.]/g, "-");

@@ -316,10 +316,12 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
       complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : "";
     });
   }
+  const cannotWrite = (signal: string): Refusal | null => (panel.places.has(signal) ? null : say.noSuchLine(signal));
   function setSignal(signal: string, value: boolean | number): Refusal | null {
-    const place = panel.places.get(signal);
     if (!act) return say.linkClosed(robot);
-    if (place === undefined) return say.noSuchLine(signal);
+    const why = cannotWrite(signal);
+    if (why) return why;
+    const place = panel.places.get(signal)!;
     order(
       act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }),
       `Writing "${signal}"`,
@@ -371,6 +373,8 @@ export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
     close() {
       close();
     },
+    cannotSay: order =>
+      order.kind === "signal" ? cannotWrite(order.signal) : order.kind === "gripper" ? cannotWrite(gripper) : null,
     move(motion) {
       if (!events) return Promise.resolve(refused(say.linkClosed(robot)));
       return guides() ? guide.move(motion) : Promise.resolve(refused(say.notStreamed(robot, "EGM is silent.")));

@@ -103,6 +103,7 @@ export function abbEgmAdapter(options: AbbEgmAdapterOptions): ControllerAdapter 
       return { kind: "open" };
     },
     close,
+    cannotSay: order => (order.kind === "signal" || order.kind === "gripper" ? noLines() : null),
     move: motion => guide.move(motion),
     stop(emergency) {
       severed ||= emergency;

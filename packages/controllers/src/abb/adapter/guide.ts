@@ -3,13 +3,11 @@ import {
   jointsOfAxes,
   Stepper,
   type CommandOutcome,
-  type Pose,
   type Refusal,
   type Robot,
   type Scheduler,
-  type Step,
 } from "@twincell/core";
-import type { AdapterMotion } from "../../driver/index.ts";
+import { stepOfMotion, type AdapterMotion } from "../../driver/index.ts";
 import type { Address, DatagramSocket, Network } from "../../transport/index.ts";
 import { EGM_PORT, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot, type EgmRobot } from "../codec/index.ts";
 import { linkClosed, notStreamed, notStreamedBecause, taken, wasStopped } from "./words.ts";
@@ -65,7 +63,6 @@ const MOST_GAP_S = 0.05;
 /** Without a motion of ours a robot that is faster than this is not moved by us [rad/s]. */
 const DRIVEN_RAD_S = 0.01;
 const STILL_RAD_S = 1e-4;
-const MOTION = "motion";
 
 interface Going {
   readonly stepper: Stepper;
@@ -219,7 +216,7 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
       return new Promise(resolve => {
         end({ kind: "stopped", why: wasStopped(robot) });
         going = {
-          stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOf(motion)], target_rad),
+          stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOfMotion(motion)], target_rad),
           resolve,
           isSent: false,
           stopping: null,
@@ -240,28 +237,4 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
     },
   };
   return guide;
-}
-
-/** A motion as a step: the base is the world here, and the flange its tool. */
-function stepOf(motion: AdapterMotion): Step {
-  const base = { id: MOTION, type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-  const at = (baseFromFlange: Pose<"base", "flange">) => ({
-    pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
-    frame: "world",
-    tool: "flange",
-  });
-  switch (motion.path) {
-    case "joints":
-      return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
-    case "line":
-      return { ...base, path: "lin", target: at(motion.baseFromFlange), speed: { mps: motion.speed_mps } };
-    case "arc":
-      return {
-        ...base,
-        path: "circ",
-        target: at(motion.baseFromFlange),
-        via: at(motion.baseFromVia),
-        speed: { mps: motion.speed_mps },
-      };
-  }
 }

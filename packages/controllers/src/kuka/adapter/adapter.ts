@@ -7,7 +7,7 @@ import {
   type Robot,
   type Scheduler,
 } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
 import { AXES, e6axis, e6pos, kukaAxes } from "../axes.ts";
 import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec-c3.ts";
@@ -265,6 +265,12 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       : [...path, [TWC.kind, String(TWC_KIND.arc)], [TWC.via, e6pos(motion.baseFromVia, null, DIGITS)]];
   }
 
+  function cannotSay(order: AdapterOrder): Refusal | null {
+    if (order.kind === "gripper") return gripper === "" ? say.noGripper : null;
+    if (order.kind !== "signal") return null;
+    const match = OUTPUT.exec(order.signal);
+    return match && (match[1] === "OUT") === (typeof order.value === "boolean") ? null : say.noSuchLine(order.signal);
+  }
   async function move(motion: AdapterMotion): Promise<CommandOutcome> {
     const own = client;
     const now = state;
@@ -392,6 +398,7 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
     watchdog: { kind: "robot", within_s: watch_s },
     open,
     close,
+    cannotSay,
     move,
     reset,
     stop(emergency) {
@@ -408,8 +415,8 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       return null;
     },
     setSignal(signal, value) {
-      const match = OUTPUT.exec(signal);
-      if (!match || (match[1] === "OUT") !== (typeof value === "boolean")) return say.noSuchLine(signal);
+      const why = cannotSay({ kind: "signal", signal, value });
+      if (why) return why;
       void client?.ask({
         kind: "write",
         wide: true,
@@ -419,7 +426,8 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       return null;
     },
     setGripper(closed) {
-      if (gripper === "") return say.noGripper;
+      const why = cannotSay({ kind: "gripper", closed });
+      if (why) return why;
       void client?.ask({ kind: "write", wide: true, name: gripper, value: closed ? "TRUE" : "FALSE" });
       return null;
     },

@@ -3,12 +3,17 @@ import {
   type CommandOutcome,
   type EmittedFile,
   type JointSample,
-  type Pose,
-  type Step,
+  type Refusal,
   axesOfJoints,
   jointsOfAxes,
 } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
+import {
+  stepOfMotion,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterOrder,
+  type Opened,
+} from "../../driver/index.ts";
 import type { DatagramSocket } from "../../transport/index.ts";
 import { AXES, kukaAxes } from "../axes.ts";
 import { readRsi, rsiAxes, rsiWriter, type RsiConfig } from "../codec-rsi.ts";
@@ -237,6 +242,13 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     return outcome;
   }
 
+  const cannotSay = (order: AdapterOrder): Refusal | null =>
+    order.kind === "signal" || order.kind === "gripper"
+      ? base.cannotSay(order)
+      : config.onlySend
+        ? say.onlySends
+        : null;
+
   return {
     brand: "KUKA",
     robot,
@@ -246,13 +258,15 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     watchdog: config.onlySend
       ? { kind: "none", because: "RSI only sends; nothing from here moves the robot." }
       : { kind: "robot", within_s: (options.timeout ?? 100) * cycle_s },
+    cannotSay,
     move(motion) {
-      if (config.onlySend) return Promise.resolve({ kind: "refused", why: say.onlySends });
+      const why = cannotSay(motion);
+      if (why) return Promise.resolve({ kind: "refused", why });
       if (!runs()) return Promise.resolve({ kind: "refused", why: say.rsiRests });
       commanded_rad.set(lent.q_rad);
       return new Promise(resolve => {
         streaming = {
-          stepper: new Stepper(robot, NOTHING, [stepOf(motion)], commanded_rad),
+          stepper: new Stepper(robot, NOTHING, [stepOfMotion(motion)], commanded_rad),
           target_rad: motion.q_rad.slice(),
           resolve,
           stopping: false,
@@ -287,20 +301,4 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
         }
       : {}),
   };
-}
-
-function stepOf(motion: AdapterMotion): Step {
-  const step = { id: "motion", type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-  if (motion.path === "joints")
-    return { ...step, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
-  // The base is the world here, and the flange its tool.
-  const place = (baseFromFlange: Pose<"base", "flange">) => ({
-    pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
-    frame: "world",
-    tool: "flange",
-  });
-  const speed = { mps: motion.speed_mps };
-  return motion.path === "line"
-    ? { ...step, path: "lin", target: place(motion.baseFromFlange), speed }
-    : { ...step, path: "circ", target: place(motion.baseFromFlange), via: place(motion.baseFromVia), speed };
 }

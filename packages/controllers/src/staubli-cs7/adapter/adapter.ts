@@ -10,7 +10,7 @@ import {
 } from "@twincell/core";
 import { stoppedInReset } from "../../refusals.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
 import {
   errorOf,
@@ -79,6 +79,14 @@ const POLL_LETTERS = 340;
 const LETTER_BITS = 10;
 const MISSED = 2.5;
 const QUESTION = `LISTR STATE(1),STATE(2),${TWC.done}`;
+
+const OUTPUT = /^out_([1-9][0-9]{0,2})$/;
+
+function cannotSay(order: AdapterOrder): Refusal | null {
+  if (order.kind === "signal")
+    return OUTPUT.test(order.signal) && typeof order.value === "boolean" ? null : noLine(order.signal);
+  return order.kind !== "gripper" && order.path === "arc" ? noArc : null;
+}
 
 /**
  * A CS7 by the monitor of its V+: joints by WHERE, its state and the number of the last motion by LISTR, motions by the
@@ -351,9 +359,11 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
       kind: "none",
       because: `The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused.${stale_s > STALE_S ? ` Over this slow line a break is noticed after ${stale_s.toFixed(1)} s and not within 100 ms.` : ""}`,
     },
+    cannotSay,
     move(wanted) {
       if (!line) return Promise.resolve(refused(closedHere));
-      if (wanted.path === "arc") return Promise.resolve(refused(noArc));
+      const why = cannotSay(wanted);
+      if (why) return Promise.resolve(refused(why));
       return new Promise(resolve => {
         moving = {
           motion: wanted,
@@ -399,9 +409,9 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
       return DONE;
     },
     setSignal(signal, value) {
-      const n = /^out_([1-9][0-9]{0,2})$/.exec(signal);
-      if (!n || typeof value !== "boolean") return noLine(signal);
-      void line?.ask(`SIGNAL ${value ? "" : "-"}${n[1]}`);
+      const why = cannotSay({ kind: "signal", signal, value });
+      if (why) return why;
+      void line?.ask(`SIGNAL ${value ? "" : "-"}${OUTPUT.exec(signal)![1]}`);
       values.set(signal, value);
       return null;
     },

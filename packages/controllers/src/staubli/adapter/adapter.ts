@@ -1,6 +1,6 @@
 import type { CommandOutcome, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
 import { DONE, refused, stopped } from "../../outcomes.ts";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../../driver/index.ts";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
 import {
   AXES,
@@ -95,6 +95,13 @@ function within(
 }
 /** From one 32-bit number below 8 to the next. */
 const STEP_RAD = 2 ** -21;
+
+/** A joint point is all that the protocol says. */
+function cannotSay(order: AdapterOrder): Refusal | null {
+  if (order.kind === "signal" || order.kind === "gripper") return noSignals;
+  if (order.path !== "joints") return noPath(order.path === "line" ? "A straight line" : "An arc");
+  return order.acceleration < 1 ? noAcceleration : null;
+}
 
 /**
  * A CS8 or CS9 over simple_message: joint angles 50 times a second, a status with every fifth, motions one joint point
@@ -378,14 +385,9 @@ export function createStaubliAdapter(options: StaubliAdapterOptions): Controller
       because:
         "The VAL 3 program stops the robot as soon as one of its connections is closed, but a cable that is pulled closes none for minutes: streamed motion is refused.",
     },
+    cannotSay,
     move(motion) {
-      const why = !motionLine
-        ? closedHere
-        : motion.path !== "joints"
-          ? noPath(motion.path === "line" ? "A straight line" : "An arc")
-          : motion.acceleration < 1
-            ? noAcceleration
-            : null;
+      const why = motionLine ? cannotSay(motion) : closedHere;
       if (why) return Promise.resolve(refused(why));
       return new Promise(resolve => {
         moving = {

@@ -1,5 +1,12 @@
 import type { CommandOutcome, EmittedFile, UploadedProgram, Refusal } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOptions, Opened } from "../../driver/index.ts";
+import type {
+  ControllerAdapter,
+  AdapterEvents,
+  AdapterMotion,
+  AdapterOptions,
+  AdapterOrder,
+  Opened,
+} from "../../driver/index.ts";
 import type { ByteStream } from "../../transport/index.ts";
 import { REPLIES } from "../codec/dashboard.ts";
 import { JOINTS, modelOf, UR_PORTS } from "../codec/models.ts";
@@ -14,7 +21,7 @@ import {
 import type { PrimaryMessage } from "../codec/primary.ts";
 import { CONTROL_PROGRAM, WATCHDOG_S } from "./control-program.ts";
 import { dashboardClient, type DashboardClient } from "./dashboard-client.ts";
-import { GROUPS, INPUTS, Orders } from "./orders.ts";
+import { GROUPS, INPUTS, isOutput, Orders } from "./orders.ts";
 import { primaryClient, type PrimaryClient } from "./primary-client.ts";
 import { openRtde, type RtdeClient } from "./rtde-client.ts";
 import { GRIPPER_LINE, OUTPUTS, RATE_HZ, UrReading } from "./state.ts";
@@ -54,6 +61,9 @@ interface Open {
   unheard: number;
   echo: number;
 }
+
+const cannotSay = (order: AdapterOrder): Refusal | null =>
+  order.kind === "signal" && !isOutput(order.signal) ? words.noSuchLine(order.signal) : null;
 
 /**
  * Drives a robot of Universal Robots: states over RTDE at 500 Hz, motions as orders in RTDE's registers to a small
@@ -424,6 +434,7 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     watchdog: { kind: "robot", within_s: WATCHDOG_S },
     open: attempt,
     close: closeAll,
+    cannotSay,
     move: (motion: AdapterMotion) => order(orders => orders.motion(motion)),
     stop,
     setOverride(ratio) {
@@ -435,9 +446,10 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     },
     reset,
     setSignal(signal, value) {
-      const group = open?.orders.line(signal, value) ?? null;
-      if (group === null) return words.noSuchLine(signal);
-      open?.rtde.send(group);
+      const why = cannotSay({ kind: "signal", signal, value });
+      if (why) return why;
+      if (!open) return words.noAnswer("There is no connection.");
+      open.rtde.send(open.orders.line(signal, value));
       return null;
     },
     setGripper(closed) {

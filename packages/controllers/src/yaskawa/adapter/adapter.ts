@@ -17,7 +17,7 @@ import {
 } from "../codec/index.ts";
 import { hsesClient, type Answer, type Client } from "./client.ts";
 import { fileClient, type FileClient } from "./files.ts";
-import { Hand } from "./hand.ts";
+import { Hand, unsayableMotion } from "./hand.ts";
 import { handJob } from "./job.ts";
 import { lineTable, watchedLines, type LineTable } from "./lines.ts";
 import { robotState } from "./state.ts";
@@ -306,6 +306,11 @@ export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
       return { kind: "open" };
     },
     close,
+    cannotSay(order) {
+      if (order.kind === "signal") return lines.cannotWrite(order.signal, order.value);
+      if (order.kind === "gripper") return hasGripper ? lines.cannotWrite(GRIPPER, order.closed) : noGripper(robot);
+      return unsayableMotion(order, robot);
+    },
     move: (motion: AdapterMotion): Promise<CommandOutcome> => hand.move(motion),
     stop(emergency) {
       hand.stop(emergency);

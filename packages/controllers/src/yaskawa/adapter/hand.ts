@@ -66,6 +66,12 @@ const START: Omit<Question, "patience_s"> = {
   data: word(ON),
 };
 
+/** Why no command of the server says that motion. */
+export const unsayableMotion = (
+  { path, acceleration }: Pick<AdapterMotion, "path" | "acceleration">,
+  robot: Robot,
+): Refusal | null => (path === "arc" ? noArc(robot) : acceleration < 1 ? noSoftness(robot) : null);
+
 /**
  * The hand on the robot: one motion or one job at a time. A change of override stops a motion by a hold and tells it
  * again at the new speed: its targets are absolute, and a straight line goes on along itself.
@@ -114,8 +120,8 @@ export class Hand {
 
   move(motion: AdapterMotion): Promise<CommandOutcome> {
     const { robot, scale } = this.options;
-    if (motion.path === "arc") return refusal(noArc(robot));
-    if (motion.acceleration < 1) return refusal(noSoftness(robot));
+    const why = unsayableMotion(motion, robot);
+    if (why) return refusal(why);
     return this.carryOut(motion, endOf(motion, scale));
   }
   /** The job that was selected, from its beginning to its end. @param stops  as they were when it was asked for. */

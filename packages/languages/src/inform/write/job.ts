@@ -1,6 +1,5 @@
 import {
   compose,
-  distance,
   expressionOf,
   isCondition,
   isPassedOver,
@@ -22,10 +21,9 @@ import { commentText, titleText } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
 import { Computing } from "./computing.ts";
 import { Points, type Arrival } from "./points.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
+import { BlockWriter, corner_m, goesOn, type WalkedPlace } from "../../emitter/index.ts";
 import type { ConfigurationMap } from "./postures.ts";
 import { accelerationText, cornerText, speedText } from "./speed.ts";
-import { TextWriter } from "./text-writer.ts";
 
 /** Jobs carry a date; one that does not depend on when they were written. */
 const DATE = "2000/01/01 00:00";
@@ -43,7 +41,7 @@ export interface JobSetting {
 /** One job: positions first, then the instructions. */
 export class JobWriter {
   private readonly setting: JobSetting;
-  private readonly out = new TextWriter();
+  private readonly out = new BlockWriter();
   private readonly points: Points;
   private readonly variables: string[] = [];
   private readonly pallets = new Map<string, PalletLoop>();
@@ -73,7 +71,7 @@ export class JobWriter {
 
   write(name: string, title: string, steps: readonly Step[]): EmittedFile {
     this.steps(steps, undefined);
-    const file = new TextWriter();
+    const file = new BlockWriter();
     const { points, variables, setting } = this;
     for (const variable of variables) points.variable(variable);
     file.add("/JOB");
@@ -264,8 +262,9 @@ export class JobWriter {
     this.shiftFor(loop, step.id);
     const speed = speedText(step, place.robot.maxTcpSpeed_mps);
     const acceleration = accelerationText(step);
-    const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0;
-    const corner = cornerText(step.path, corner_m);
+    const cornerBegin_m =
+      step.until === undefined && goesOn(place, next, this.isMain) ? corner_m(place, step, before, next) : 0;
+    const corner = cornerText(step.path, cornerBegin_m);
     if (
       step.path === "circ" ||
       (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))
@@ -328,35 +327,5 @@ export class JobWriter {
   private shiftOff(id: string): void {
     if (this.shift !== "") this.out.add("SFTOF", id);
     this.shift = "";
-  }
-
-  private goesOn(next: Step | undefined): boolean {
-    const inside = (steps: readonly Step[] | undefined): boolean =>
-      this.goesOn(steps?.find(each => !isPassedOver(each)));
-    switch (next?.type) {
-      case undefined:
-        return !this.isMain;
-      case "move":
-        return true;
-      case "repeat":
-      case "pallet":
-        return inside(next.steps);
-      case "call":
-        return inside(this.setting.place.program.routines[next.routine]);
-      default:
-        return false;
-    }
-  }
-
-  /** Where the corner begins. A share is turned into a distance by the chords to the points before and behind. */
-  private corner(step: MoveStep, before: Step | undefined, next: Step | undefined): number {
-    const { blend_m, blend_ratio = 0 } = step;
-    const { place } = this.setting;
-    if (!(blend_ratio > 0)) return blend_m;
-    const at = (each: MoveStep) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
-    const chords: number[] = [];
-    if (before?.type === "move") chords.push(distance(at(before), at(step)));
-    if (next?.type === "move") chords.push(distance(at(step), at(next)));
-    return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
   }
 }

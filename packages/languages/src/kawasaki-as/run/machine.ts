@@ -10,12 +10,12 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, nameIn, rememberMap, type DeclaredCell, inverted, times, type Matrix } from "../../parser/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
 import { ControllerArm, type Posture } from "./arm.ts";
-import { NULL, inverted, shifted, times, toPose, trans, type Matrix } from "./frame.ts";
+import { NULL, shifted, toPose, trans } from "./frame.ts";
 import { FUNCTIONS, numbersOf } from "./functions.ts";
 import { holds, lineAt } from "./lines.ts";
 import { asNumber, asPlace, binary, kindOf, truth, type PlaceValue, type Value } from "./values.ts";

@@ -9,7 +9,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, rememberMap, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, nameIn, rememberMap, type DeclaredCell, times } from "../../parser/index.ts";
 import {
   BlockMachine,
   changedNames,
@@ -23,7 +23,7 @@ import {
 import type { Source } from "../read/grammar.ts";
 import { SILENT } from "../read/silent.ts";
 import { ControllerArm } from "./arm.ts";
-import { matrixOf, toPose, times } from "./frame.ts";
+import { matrixOf, toPose } from "./frame.ts";
 import { FUNCTIONS, itemOf, withItem } from "./functions.ts";
 import { Arguments } from "./arguments.ts";
 import { conditionOf, routeOf, holds, lineAt } from "./lines.ts";
