@@ -185,7 +185,7 @@ test("X-05, M-63 a gripper is put on by a click: the TCP follows its opening, 14
     );
   await checked(2);
   await library.getByRole("button", { name: /^Vacuum cups/ }).click();
-  await page.getByRole("button", { name: "Take over what was taught with Two fingers 85 mm" }).click();
+  await page.getByRole("button", { name: "Take over what was taught with Two fingers" }).click();
   const tools = await page.evaluate(() =>
     window.twincell.stores.cellStore
       .getState()

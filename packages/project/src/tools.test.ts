@@ -1,4 +1,13 @@
-import { checkProgram, compose, flangePose, linkSolids, robotById, samplePlan, type MoveStep } from "@twincell/core";
+import {
+  checkProgram,
+  compose,
+  flangePose,
+  linkSolids,
+  robotById,
+  samplePlan,
+  type MoveStep,
+  type Vector3,
+} from "@twincell/core";
 import { expect, test } from "vitest";
 import { conveyorPalletCell, emptyCell } from "./example/index.ts";
 import type { CellDocument, ToolRecord } from "./document.ts";
@@ -26,7 +35,7 @@ test("X-05 the two fingers are those of the 2F-85: 85 mm at 0 rad, 45.3 at 0.4, 
   const closed = changedTool(open, { width: 0 });
   expect(closed.flangeFromTcp.position[2] - open.flangeFromTcp.position[2]).toBeCloseTo(0.0136, 3);
   // A TCP that a person measured stays.
-  const own = { ...open, flangeFromTcp: { ...open.flangeFromTcp, position: [0, 0, 0.2] as const } };
+  const own = { ...open, flangeFromTcp: { ...open.flangeFromTcp, position: [0, 0, 0.2] as Vector3 } };
   expect(changedTool(own, { width: 0.02 }).flangeFromTcp.position[2]).toBe(0.2);
   expect(open.gripper).toMatchObject({ open_m: 0.085, speed_mps: 0.15, mass_kg: 0.921 });
 });
@@ -91,6 +100,28 @@ test("M-63, T-59 another tool takes over what was taught: the tip goes where it 
   const [old, now] = [end(cell, before), end(swapped, after)];
   for (let k = 0; k < 3; k++) expect(now.tip[k]).toBeCloseTo(old.tip[k]!, 6);
   expect(now.q.some((value, j) => Math.abs(value - old.q[j]!) > 1e-3)).toBe(true);
+  // Taught as joint angles, the point is found by other angles; a home position of no tool stays as it is.
+  const q = [0.3, -1.4, 1.6, -1.7, -1.5, 0];
+  const joints = ["pointer", undefined].map(
+    (tool, i): MoveStep => ({ ...at(`q${i}`, 0, 0), target: tool === undefined ? { q } : { q, tool } }),
+  );
+  const byAngles = swappedTool({ ...cups, programs: [{ ...program!, steps: joints }] }, "pointer", "cups");
+  const targets = byAngles.programs.flatMap(each =>
+    "steps" in each
+      ? each.steps.flatMap(step => (step.type === "move" && "q" in step.target ? [step.target] : []))
+      : [],
+  );
+  expect(targets.map(target => target.tool)).toEqual(["cups", undefined]);
+  expect(targets[1]!.q).toEqual(q);
+  const tips = [
+    [q, "pointer"],
+    [targets[0]!.q, "cups"],
+  ].map(
+    ([angles, name]) =>
+      compose(flangePose(ur.arm, angles as number[]), cups.tools.find(each => each.name === name)!.flangeFromTcp)
+        .position,
+  );
+  for (let k = 0; k < 3; k++) expect(tips[0]![k]).toBeCloseTo(tips[1]![k]!, 9);
   const tools = Object.fromEntries(swapped.tools.map(each => [each.name, each.flangeFromTcp]));
   const whole = { ...swapped, programs: swapped.programs.map(each => ("steps" in each ? { ...each, tools } : each)) };
   const opened = openDocument(saveDocument(whole));

@@ -1,4 +1,18 @@
-import { everyStep, withLists, type Program, type Step, type Target } from "@twincell/core";
+import {
+  compose,
+  everyStep,
+  flangePose,
+  identity,
+  inverse,
+  nearestSolution,
+  robotById,
+  solverScratch,
+  withLists,
+  type Pose,
+  type Program,
+  type Step,
+  type Target,
+} from "@twincell/core";
 import { isTextProgram, type CellDocument, type ObjectRecord, type ToolRecord } from "./document.ts";
 import { partById, partNumbers, type PartKind, type PartNumbers } from "./parts/index.ts";
 
@@ -52,27 +66,41 @@ export const withNewTool = (cell: CellDocument, tool: ToolRecord): CellDocument 
   tool: tool.name,
 });
 
-const toolIn = (target: Target): string => target.tool ?? "flange";
+/** The tool a point was taught with; joint angles that name none are of no tool, as a home position is. */
+const toolIn = (target: Target): string | undefined => target.tool;
 
 /** How many points of the cell were taught with that tool. */
 export function pointsTaughtWith({ programs }: CellDocument, name: string): number {
   let points = 0;
   for (const program of programs)
     if (!isTextProgram(program))
-      for (const step of everyStep(program))
-        if (step.type === "move" && "pose" in step.target && toolIn(step.target) === name) points++;
+      for (const step of everyStep(program)) if (step.type === "move" && toolIn(step.target) === name) points++;
   return points;
 }
 
 /**
  * Everything that was taught with one tool ("flange" for none) is carried out with another one of the cell, which is in
- * use from then on (row M-63): its tip goes where the old one went.
+ * use from then on (row M-63): its tip goes where the old one went. Points that are joint angles become the nearest
+ * angles that bring the new tip there.
  */
 export function swappedTool(cell: CellDocument, from: string, name: string): CellDocument {
   if (from === name || (name !== "flange" && !cell.tools.some(tool => tool.name === name))) return cell;
+  const robot = robotById(cell.robot.id);
+  const poseOf = (tool: string): Pose<"flange", "tcp"> =>
+    cell.tools.find(each => each.name === tool)?.flangeFromTcp ?? identity();
+  const oldFromNew = compose(poseOf(from), inverse(poseOf(name)));
+  const scratch = solverScratch();
   const retooled = (target: Target): Target => {
     if (toolIn(target) !== from) return target;
-    return { ...target, tool: name };
+    if (!("q" in target)) return { ...target, tool: name };
+    if (robot === undefined) return target;
+    const baseFromFlange = flangePose(robot.arm, target.q);
+    const q = Float64Array.from(target.q);
+    if (nearestSolution(robot, compose(baseFromFlange, oldFromNew as Pose<"flange", "flange">), target.q, q, scratch))
+      return { q: Array.from(q), tool: name };
+    // Out of reach with the new tool: the place is kept, and the check says so.
+    const tip = compose(compose(cell.robot.worldFromBase, baseFromFlange), poseOf(from));
+    return { pose: { position: tip.position, quaternion: tip.quaternion }, frame: "world", tool: name };
   };
   const list = (steps: readonly Step[]): readonly Step[] =>
     steps.map((step): Step => {

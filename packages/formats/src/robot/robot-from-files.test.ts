@@ -153,6 +153,7 @@ test.skipIf(!existsSync(IRB))(
           links: linkSolids(robot),
           objects: [{ id: "probe", name: "probe", worldFromObject: pose(centre), mesh: boxMesh([side, side, side]) }],
           allowedPairs: [],
+          shapeError_m: 0,
         },
         robot.arm,
       ).collides(Float64Array.from(robot.home_rad));

@@ -1,4 +1,4 @@
-import { meshBounds, type Pose, type Vector3 } from "@twincell/core";
+import { DENSITY_KGM3, FRICTION, meshBounds, meshVolume, type Pose, type Vector3 } from "@twincell/core";
 import {
   freeToolName,
   rescaledObjects,
@@ -13,6 +13,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { commit, withObject } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
 import { select } from "../../stores/selection.ts";
+import { Chooser } from "../../ui/Choice.tsx";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
@@ -78,37 +79,16 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
           </>
         )}
         <PartFields object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
-        {/* Without a number of its own, the simulation takes that of the volume and of dry contact. */}
-        {object.mass_kg !== undefined && (
-          <div className="pair">
-            <span className="label">{words.parts.mass}</span>
-            <NumberField
-              label={words.parts.mass}
-              mark="kg"
-              quantity="plain"
-              decimals={2}
-              min={0.001}
-              max={100_000}
-              value={object.mass_kg}
-              onChange={(mass_kg, done) => change(words.undo.part, before => ({ ...before, mass_kg }), done)}
-            />
-          </div>
-        )}
-        {object.friction !== undefined && (
-          <div className="pair">
-            <span className="label">{words.parts.friction}</span>
-            <NumberField
-              label={words.parts.friction}
-              mark="µ"
-              quantity="plain"
-              decimals={2}
-              min={0}
-              max={10}
-              value={object.friction}
-              onChange={(friction, done) => change(words.undo.part, before => ({ ...before, friction }), done)}
-            />
-          </div>
-        )}
+        <div className="pair">
+          <span className="label">{words.inspector.role}</span>
+          <Chooser
+            label={words.inspector.role}
+            value={object.role}
+            onChange={role => change(words.undo.part, before => ({ ...before, role }), true)}
+            options={ROLES.map(role => ({ value: role, words: words.tree.roles[role] }))}
+          />
+        </div>
+        <Physical object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
         {shape.kind === "mesh" && <MeshSize object={object} />}
         {object.role !== "workpiece" && shape.kind !== "part" && (
           <button className="btn small" title={words.tools.makeToolSays} onClick={() => makeTool(object)}>
@@ -129,6 +109,52 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
         )}
       </div>
     </section>
+  );
+}
+
+const ROLES: readonly ObjectRecord["role"][] = ["workpiece", "fixture", "furniture", "wall"];
+
+/** Mass and friction; what nobody has typed is shown as the simulation takes it: by volume, and of dry contact. */
+function Physical({
+  object,
+  onChange,
+}: {
+  object: ObjectRecord;
+  onChange: (change: (object: ObjectRecord) => ObjectRecord, done: boolean) => void;
+}) {
+  const { shape } = object;
+  const byVolume_kg = useMemo(() => Math.max(0.001, Math.abs(meshVolume(shapeMesh(shape))) * DENSITY_KGM3), [shape]);
+  return (
+    <>
+      {(object.mass_kg !== undefined || object.role === "workpiece") && (
+        <div className="pair">
+          <span className="label">{words.parts.mass}</span>
+          <NumberField
+            label={words.parts.mass}
+            mark="kg"
+            quantity="plain"
+            decimals={2}
+            min={0.001}
+            max={100_000}
+            value={object.mass_kg ?? byVolume_kg}
+            onChange={(mass_kg, done) => onChange(before => ({ ...before, mass_kg }), done)}
+          />
+        </div>
+      )}
+      <div className="pair">
+        <span className="label">{words.parts.friction}</span>
+        <NumberField
+          label={words.parts.friction}
+          mark="µ"
+          quantity="plain"
+          decimals={2}
+          min={0}
+          max={10}
+          value={object.friction ?? FRICTION}
+          onChange={(friction, done) => onChange(before => ({ ...before, friction }), done)}
+        />
+      </div>
+    </>
   );
 }
 

@@ -83,7 +83,12 @@ function Open() {
       <div className="stack">
         <label className="stack">
           <span className="label">{words.own.table.name}</span>
-          <input className="input" value={name} maxLength={60} onChange={event => setName(event.currentTarget.value)} />
+          <input
+            className="dh-name"
+            value={name}
+            maxLength={60}
+            onChange={event => setName(event.currentTarget.value)}
+          />
         </label>
         <Segments
           label={words.own.table.convention}

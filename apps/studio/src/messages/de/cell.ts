@@ -267,7 +267,7 @@ export const cellWords = {
       door: "Tür mit Schalter",
       "light-curtain": "Lichtvorhang",
       person: "Person",
-      "two-fingers": "Zweifingergreifer 85 mm",
+      "two-fingers": "Zweifingergreifer",
       "vacuum-cups": "Vakuumsauger",
       torch: "Schweißbrenner",
       spindle: "Spindel",

@@ -261,7 +261,7 @@ export const cellWords = {
       door: "Door with switch",
       "light-curtain": "Light curtain",
       person: "Person",
-      "two-fingers": "Two fingers 85 mm",
+      "two-fingers": "Two fingers",
       "vacuum-cups": "Vacuum cups",
       torch: "Welding torch",
       spindle: "Spindle",
