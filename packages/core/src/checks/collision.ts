@@ -1,4 +1,4 @@
-import { CellCollider, clearance as noClearance } from "../collision/cell-collider.ts";
+import { CellCollider, clearance as noClearance, robotAndCell } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
 import type { MotionVerdict } from "../collision/motion.ts";
 import { resolveMove, type Move } from "../trajectory/moves.ts";
@@ -18,7 +18,7 @@ import { motions, seconds, type CheckScene } from "./scene.ts";
 
 export interface CollisionOptions {
   readonly cell: CellGeometry;
-  /** Distance the robot keeps from the cell [m]; 0 asks for no contact only. Its own parts must not touch. */
+  /** Distance the robot keeps from the cell and its own parts from each other, as `marginOf` says [m]. */
   readonly margin_m: number;
   /** Receives the proof of every motion that is clear. */
   readonly certificates?: SegmentCertificate[];
@@ -154,10 +154,10 @@ function sentenceOf(
   const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
   const b = nameOf(other, cell);
   const shape_m = contact.margin_m - Math.max(0, asked_m) - (cell.placeError_m ?? 0);
-  const parts = [
-    ...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []),
-    ...placeErrors(cell),
-  ];
+  const parts =
+    contact.between === "self"
+      ? []
+      : [...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []), ...placeErrors(cell)];
   const because = parts.map(part => `, ${part}`).join("");
   return contact.margin_m > 0 && contact.distance_m > 0
     ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}${because}.`
@@ -209,7 +209,7 @@ function leastClearance(
       const t_s = due_s - passed_s;
       const { watched, keepsMargin } = stretches.find(({ to }) => t_s <= to) ?? stretches.at(-1)!;
       sampleSegment(segment, t_s, q);
-      collider.clearance(q, least, near, pair => watched(pair) && keepsMargin(pair));
+      collider.clearance(q, least, near, pair => robotAndCell(pair) && watched(pair) && keepsMargin(pair));
       least = Math.min(least, near.distance_m);
       if (!(period_s > 0)) break;
     }

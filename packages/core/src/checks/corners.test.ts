@@ -191,7 +191,7 @@ describe.each([["yaskawa_gp8", gp8, "inform"] as const, ["fanuc_lrmate200id", lr
 function randomCorner(robot: Robot, random: () => number): Program {
   const some = (by: number): number => by * (2 * random() - 1);
   const home = robot.home_rad;
-  const q = [0, 1, 2].map(() => home.map((v, j) => v + some(j < 3 ? 0.4 : 0.6)));
+  const q = [0, 1, 2].map(() => home.map((v, j) => v + some(j < 3 ? 0.3 : 0.4)));
   const path = random() < 0.6 ? ptp : straight;
   return {
     ...programOf(robot),

@@ -1,4 +1,4 @@
-import { robotAndCell, type CellCollider } from "../collision/cell-collider.ts";
+import { keptApart, type CellCollider } from "../collision/cell-collider.ts";
 import { certifyMotion, type MotionCertificate } from "../collision/certificate.ts";
 import { ClearanceMaps } from "../collision/clearance-map.ts";
 import { checkMotion, jointLine, type MotionVerdict } from "../collision/motion.ts";
@@ -23,9 +23,7 @@ export class Prover {
   /** The whole motion with everything watched, or stretch by stretch as given. */
   prove(
     segment: MotionSegment,
-    stretches: readonly Stretch[] = [
-      { from: 0, to: segment.duration_s, watched: () => true, keepsMargin: robotAndCell },
-    ],
+    stretches: readonly Stretch[] = [{ from: 0, to: segment.duration_s, watched: () => true, keepsMargin: keptApart }],
   ): MotionVerdict {
     const motion = motionOf(segment, this.rates);
     let checks = 0;

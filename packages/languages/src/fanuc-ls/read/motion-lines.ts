@@ -4,6 +4,12 @@ import type { Expression, Statement } from "../../parser/structured/index.ts";
 import type { Motion, Point } from "./actions.ts";
 import { OperandReader } from "./operands.ts";
 
+/** Options of a motion that change nothing of where the robot goes. */
+const IDLE_OPTIONS = ["pth", "wjnt", "rtcp", "break", ","];
+/** What may stand behind a motion. */
+type Option = "acceleration" | "offset" | "toolOffset" | "coordinated" | "skip" | "jumpsWhenMet" | "incremental";
+type Options = { -readonly [K in keyof Pick<Motion, Option>]: Motion[K] };
+
 /** Lines of TP programs that move the robot. */
 export abstract class MotionReader extends OperandReader {
   protected abstract statement(): Statement;
@@ -22,9 +28,6 @@ export abstract class MotionReader extends OperandReader {
     const first = this.point();
     let via: Point | undefined;
     let goal = first;
-    let offset: Motion["offset"];
-    let toolOffset: Motion["toolOffset"];
-    let coordinated = false;
     if (word === "c") {
       via = first;
       // A point on the way may be shifted as its end is.
@@ -39,61 +42,10 @@ export abstract class MotionReader extends OperandReader {
     const speed = isHeld ? undefined : this.value();
     if (isHeld) cursor.advance();
     const unit = isHeld ? held : this.unit(path);
-    let cnt: Expression | undefined;
-    let acceleration: Expression | undefined;
-    let skip: number | undefined;
-    let jumpsWhenMet = false;
-    let incremental = false;
     const at = cursor.here;
-    const term = cursor.next;
-    if (!cursor.accept("fine")) {
-      cnt = this.suffixed("cnt") ?? this.corner();
-      if (cnt === undefined)
-        throw new TextError(at, "FINE or CNT", `"${term.toUpperCase()}" says not how the point is reached.`);
-    }
-    while (!cursor.isAt("line-end") && !cursor.done) {
-      const found = this.suffixed("acc");
-      if (found !== undefined) {
-        acceleration = found;
-        continue;
-      }
-      if (cursor.accept("offset")) {
-        offset = this.offset();
-        continue;
-      }
-      if (cursor.accept("tool_offset")) {
-        toolOffset = this.offset();
-        continue;
-      }
-      if (cursor.accept("coord")) {
-        coordinated = true;
-        continue;
-      }
-      if (cursor.next === "skip" || cursor.next === "skipjump") {
-        jumpsWhenMet = cursor.take() === "skipjump";
-        cursor.expect(",");
-        skip = this.label();
-        continue;
-      }
-      if (cursor.next === "tb" || cursor.next === "ta" || cursor.next === "db") {
-        this.atPoint(at);
-        break;
-      }
-      if (cursor.accept("inc")) {
-        incremental = true;
-        continue;
-      }
-      if (this.passes()) continue;
-      if (
-        cursor.accept("pth") ||
-        cursor.accept("wjnt") ||
-        cursor.accept("rtcp") ||
-        cursor.accept("break") ||
-        cursor.accept(",")
-      )
-        continue;
-      throw cursor.unexpected("an option of the motion that is executed here");
-    }
+    const cnt = this.term(at);
+    const options: Options = { coordinated: false };
+    while (!cursor.isAt("line-end") && !cursor.done) if (this.option(options, at) === "last") break;
     return {
       kind: "motion",
       path,
@@ -102,14 +54,45 @@ export abstract class MotionReader extends OperandReader {
       unit,
       ...(via === undefined ? {} : { via }),
       ...(cnt === undefined ? {} : { cnt }),
-      ...(acceleration === undefined ? {} : { acceleration }),
-      ...(offset === undefined ? {} : { offset }),
-      ...(toolOffset === undefined ? {} : { toolOffset }),
-      coordinated,
-      ...(skip === undefined ? {} : { skip }),
-      ...(jumpsWhenMet ? { jumpsWhenMet } : {}),
-      ...(incremental ? { incremental } : {}),
+      ...options,
     };
+  }
+
+  /** How the point is reached: undefined for FINE. */
+  private term(at: TextPlace): Expression | undefined {
+    const { cursor } = this;
+    const term = cursor.next;
+    if (cursor.accept("fine")) return undefined;
+    const cnt = this.suffixed("cnt") ?? this.corner();
+    if (cnt === undefined)
+      throw new TextError(at, "FINE or CNT", `"${term.toUpperCase()}" says not how the point is reached.`);
+    return cnt;
+  }
+
+  /** @returns "last" behind what takes the rest of the line. */
+  private option(options: Options, at: TextPlace): "last" | "more" {
+    const { cursor } = this;
+    const acceleration = this.suffixed("acc");
+    if (acceleration !== undefined) options.acceleration = acceleration;
+    else if (cursor.accept("offset")) options.offset = this.offset();
+    else if (cursor.accept("tool_offset")) options.toolOffset = this.offset();
+    else if (cursor.accept("coord")) options.coordinated = true;
+    else if (cursor.next === "skip" || cursor.next === "skipjump") this.skipping(options);
+    else if (cursor.next === "tb" || cursor.next === "ta" || cursor.next === "db") {
+      this.atPoint(at);
+      return "last";
+    } else if (cursor.accept("inc")) options.incremental = true;
+    else if (!this.passes() && !IDLE_OPTIONS.some(word => cursor.accept(word)))
+      throw cursor.unexpected("an option of the motion that is executed here");
+    return "more";
+  }
+
+  private skipping(options: Options): void {
+    const { cursor } = this;
+    if (cursor.take() === "skipjump") options.jumpsWhenMet = true;
+    else delete options.jumpsWhenMet;
+    cursor.expect(",");
+    options.skip = this.label();
   }
 
   /**

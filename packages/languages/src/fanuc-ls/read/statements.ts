@@ -139,6 +139,15 @@ export class StatementReader extends MotionReader {
         return this.assignment(word, at);
       case "ar":
         throw new TextError(at, "a statement of the motion program", "AR[] cannot be given a value.");
+      default:
+        return this.named(at, word);
+    }
+  }
+
+  /** Frames, tools and conditions. */
+  private named(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "sr":
         return this.shown(at, "a text register is given a text");
       case "arc":
@@ -169,6 +178,15 @@ export class StatementReader extends MotionReader {
         cursor.expect("pr");
         return this.act({ kind: "tool-offset-condition", register: this.indexed() }, at);
       }
+      default:
+        return this.flow(at, word);
+    }
+  }
+
+  /** What decides, repeats, jumps and ends. */
+  private flow(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "if":
         return this.decision(at);
       case "select":

@@ -253,6 +253,17 @@ export class Machine extends Motions {
       case "timeout":
         this.timeout = this.numberOf(action.value);
         return undefined;
+      default:
+        return this.setting(action, at);
+    }
+  }
+
+  /** Frames, flags and registers. */
+  private setting(
+    action: Extract<Action, { kind: "select" | "define" | "flag" | "move-register" | "pause" | "label" | "nothing" }>,
+    at: Do,
+  ): Step | undefined {
+    switch (action.kind) {
       case "select": {
         const before = this.unknowns;
         const number = this.numberOf(action.number);

@@ -232,6 +232,19 @@ export abstract class Motions extends RegisterMachine {
     };
   }
 
+  /** The frame and the tool that a position is seen with: those in use, else its own. */
+  private numbersOf(record: Pick<PositionRecord, "uf" | "ut">): { readonly uf: number; readonly ut: number } {
+    const { uframe, utool } = this.setups.inUse;
+    return { uf: uframe ?? record.uf ?? 0, ut: utool ?? record.ut ?? 0 };
+  }
+
+  private anglesOf(shown: readonly number[], how: "by-joints" | "by-path" | "on-the-way"): readonly number[] {
+    const before = this.arm.remember();
+    const q_rad = this.arm.atShown(shown);
+    if (how === "on-the-way") before();
+    return q_rad;
+  }
+
   private target(
     point: Point,
     shifted: ReturnType<Motions["shift"]>,
@@ -241,8 +254,7 @@ export abstract class Motions extends RegisterMachine {
   ): Target {
     const record = this.record(point, at);
     const { values, config } = record;
-    const uf = this.setups.inUse.uframe ?? record.uf ?? 0;
-    const ut = this.setups.inUse.utool ?? record.ut ?? 0;
+    const { uf, ut } = this.numbersOf(record);
     if (values === undefined)
       throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
     const frame = this.setups.of("uframe", uf, at);
@@ -251,12 +263,10 @@ export abstract class Motions extends RegisterMachine {
     if (record.joints) {
       if (shifted !== undefined || inTool !== undefined)
         throw new TextError(at, "a position of X, Y, Z", "A position of joint angles is not shifted here.");
-      const before = this.arm.remember();
-      const q = this.arm.atShown(values);
-      if (how === "on-the-way") before();
-      return { q, tool: name };
+      return { q: this.anglesOf(values, how), tool: name };
     }
-    const written = inTool === undefined ? fromSix(values) : times(fromSix(values), inTool);
+    const six = fromSix(values);
+    const written = inTool === undefined ? six : times(six, inTool);
     const seen = shifted === undefined ? written : moved(written, shifted.mm);
     const named = this.setups.frameName(frame);
     const inPlace = shifted === undefined ? undefined : this.atPlace(shifted.register, written);
@@ -268,20 +278,20 @@ export abstract class Motions extends RegisterMachine {
     const target = inPlace === undefined ? plain : { ...plain, ...inPlace };
     if (how === "on-the-way") return target;
     const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), config);
-    if (how === "by-joints" && !reached.fits && this.notices !== undefined)
-      this.notices.add(
-        at,
-        "a configuration that reaches the position",
-        `Line ${at.line}: this robot does not reach the position in its configuration; the nearest posture is taken.`,
-      );
-    else if (how === "by-joints" && !reached.fits)
-      throw new TextError(
-        at,
-        "a configuration that reaches the position",
-        "The position is not reached in its configuration.",
-      );
+    if (how === "by-joints" && !reached.fits) this.notInConfiguration(at);
     if (how === "by-joints" && reached.turned && !this.writesDown) return { q: reached.q!, tool: name };
     return { ...target, ...(reached.branch === undefined ? {} : { branch: reached.branch }) };
+  }
+
+  private notInConfiguration(at: TextPlace): void {
+    const expected = "a configuration that reaches the position";
+    if (this.notices === undefined)
+      throw new TextError(at, expected, "The position is not reached in its configuration.");
+    this.notices.add(
+      at,
+      expected,
+      `Line ${at.line}: this robot does not reach the position in its configuration; the nearest posture is taken.`,
+    );
   }
 
   /** A taught point as it is seen from the place of a pallet that is being read as one. */

@@ -16,6 +16,12 @@ const PER_DEG = 10_000;
 
 const ORIGIN: TextPlace = { line: 1, column: 1 };
 
+/** What is no motion, waits for nothing and sets no line. */
+type Handled = Exclude<
+  Statement,
+  { kind: "timer" | "dout" | "group" | "pulse" | "aout" | "din" | "wait" | "hand" | "message" | "abort" }
+>;
+
 /**
  * Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same
  * steps.
@@ -153,6 +159,16 @@ export class Machine extends Motions {
         if (statement.when !== undefined && !this.holds(statement.when, statement)) break;
         this.stopped = true;
         return done({ id: id(), type: "stop" });
+      default:
+        return this.handled(statement, frame);
+    }
+    this.note(statement);
+  }
+
+  /** What calls, computes and sets. */
+  private handled(statement: Handled, frame: Frame): void {
+    const { memory } = this;
+    switch (statement.kind) {
       case "call":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.call(statement, statement);
         break;
@@ -196,6 +212,18 @@ export class Machine extends Motions {
       case "away":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.away(statement.what, statement);
         break;
+      default:
+        return this.computedOrSet(statement);
+    }
+    this.note(statement);
+  }
+
+  /** What is shown, computed, kept or set for the motions that follow. */
+  private computedOrSet(
+    statement: Exclude<Handled, { kind: "call" | "argument" | "unknown" | "positions" | "frame" | "away" }>,
+  ): void {
+    const { memory } = this;
+    switch (statement.kind) {
       case "shown":
         this.notices?.add(
           statement,

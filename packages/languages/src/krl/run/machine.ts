@@ -94,7 +94,7 @@ export class Machine extends Motions {
     return false;
   }
 
-  protected enter(routine: Routine, args: readonly (Expression | undefined)[], at: TextPlace): Frame {
+  private checkCall(routine: Routine, args: readonly (Expression | undefined)[], at: TextPlace): void {
     if (this.stack.length >= CALL_DEPTH)
       throw new TextError(
         at,
@@ -107,6 +107,10 @@ export class Machine extends Motions {
         `${routine.parameters.length} arguments`,
         `Routine ${routine.name} takes ${routine.parameters.length} arguments; ${args.length} are given.`,
       );
+  }
+
+  protected enter(routine: Routine, args: readonly (Expression | undefined)[], at: TextPlace): Frame {
+    this.checkCall(routine, args, at);
     const caller = this.stack.at(-1);
     const values = new Map<string, Value>();
     const types = new Map<string, string>();
@@ -260,6 +264,21 @@ export class Machine extends Motions {
       }
       case "call":
         return this.callRoutine(statement);
+      default:
+        return this.flow(statement, frame);
+    }
+    this.note(statement);
+  }
+
+  /** Interrupts, triggers and ends. */
+  private flow(
+    statement: Exclude<
+      Statement,
+      { kind: "assign" | "motion" | "spline" | "end-spline" | "wait" | "wait-for" | "pulse" | "call" }
+    >,
+    frame: Frame,
+  ): void {
+    switch (statement.kind) {
       case "interrupt":
         this.interrupts.set(numberOf(statement.number, this), {
           condition: statement.condition,

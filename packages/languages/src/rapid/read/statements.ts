@@ -326,6 +326,30 @@ export abstract class StatementReader extends RecoveringReader {
       case "test":
         cursor.advance();
         return this.test(at);
+      default:
+        return this.ending(at, word);
+    }
+    if (RESERVED.has(word)) throw cursor.unexpected("a statement");
+    const { second } = cursor;
+    if (second === ":=" || second === "{" || second === ".") {
+      const to = readExpression(cursor, RULES, 0, 100);
+      cursor.expect(":=");
+      const value = readExpression(cursor, RULES);
+      cursor.expect(";");
+      return { kind: "assign", to, value, global: false, ...at };
+    }
+    cursor.advance();
+    if (second === ":") {
+      cursor.advance();
+      return { kind: "label", name: word, ...at };
+    }
+    return { kind: "do", name: word, args: readArguments(cursor, ";", 0), ...at };
+  }
+
+  /** Statements that end something, and what is read to its semicolon. */
+  private ending(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
       case "return": {
         cursor.advance();
         if (cursor.accept(";")) return { kind: "return", ...at };

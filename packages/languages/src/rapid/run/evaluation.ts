@@ -164,6 +164,15 @@ export abstract class Evaluation extends KeptData {
         const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
       }
+      default:
+        return this.computed(expression, args);
+    }
+  }
+
+  /** What is made of texts and arrays, what the controller answers, and what is computed. */
+  private computed(expression: Extract<Expression, { kind: "call" }>, args: Arguments): Value {
+    const { name, args: given } = expression;
+    switch (name) {
       case "strtoval": {
         const to = given[1]?.value;
         const text = args.value(0, "a text");
@@ -172,14 +181,8 @@ export abstract class Evaluation extends KeptData {
         this.store(to, value);
         return true;
       }
-      case "dim": {
-        const array = args.value(0, "an array");
-        const depth = args.number(1, "the dimension");
-        let part: Value | undefined = array;
-        for (let i = 1; i < depth; i++) part = typeof part === "object" ? part[0] : undefined;
-        if (typeof part !== "object") throw new TextError(expression, "an array", "Dim asks for the size of an array.");
-        return part.length;
-      }
+      case "dim":
+        return this.sizeOf(expression, args);
       case "gettaskname":
         return "T_ROB1";
       case "opmode":
@@ -195,6 +198,22 @@ export abstract class Evaluation extends KeptData {
       default:
         break;
     }
+    return this.byName(expression, args);
+  }
+
+  /** The size of an array in one of its dimensions. */
+  private sizeOf(expression: Extract<Expression, { kind: "call" }>, args: Arguments): Value {
+    const array = args.value(0, "an array");
+    const depth = args.number(1, "the dimension");
+    let part: Value | undefined = array;
+    for (let i = 1; i < depth; i++) part = typeof part === "object" ? part[0] : undefined;
+    if (typeof part !== "object") throw new TextError(expression, "an array", "Dim asks for the size of an array.");
+    return part.length;
+  }
+
+  /** A function that computes with values. */
+  private byName(expression: Extract<Expression, { kind: "call" }>, args: Arguments): Value {
+    const { name } = expression;
     const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
     if (known === undefined)
       throw new TextError(expression, "a function of RAPID", `"${name}" is no function that is understood here.`);

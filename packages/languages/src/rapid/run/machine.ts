@@ -143,6 +143,15 @@ export class Machine extends Motions {
       case "set":
       case "reset":
         return this.write(args.nameOf(0, "a line"), name === "set", at);
+      default:
+        return this.written(name, args, at);
+    }
+  }
+
+  /** Lines that are set, and what is set for the motions that follow. */
+  private written(name: string, args: Arguments, at: TextPlace): Step | undefined {
+    const id = (): string => this.stepId(at);
+    switch (name) {
       case "setdo":
         return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
       case "setao":
@@ -152,6 +161,15 @@ export class Machine extends Motions {
         const signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
         return { id: id(), type: "set", signal, to: true, pulse_s };
       }
+      default:
+        return this.setting(name, args, at);
+    }
+  }
+
+  /** What is set for the motions that follow, counted, or told to people. */
+  private setting(name: string, args: Arguments, at: TextPlace): Step | undefined {
+    const id = (): string => this.stepId(at);
+    switch (name) {
       case "gripload":
         return { id: this.stepId(at), type: "payload", ...loadOf(args.value(0, "a load"), this.tool, at) };
       case "tpwrite": {
@@ -167,6 +185,14 @@ export class Machine extends Motions {
         this.override = Math.min(1, Math.max(0.01, args.number(0, "a percentage") / 100));
         this.fastest_mmps = args.number(1, "a speed");
         return undefined;
+      default:
+        return this.linesAndCounters(name, args, at);
+    }
+  }
+
+  /** Lines by their groups, counters, and what does not move the robot. */
+  private linesAndCounters(name: string, args: Arguments, at: TextPlace): Step | undefined {
+    switch (name) {
       case "confj":
         this.asksConfiguration = !args.has("off");
         return undefined;

@@ -94,10 +94,7 @@ export abstract class MotionWriter extends BlockStepWriter {
 
   protected abstract variableName(variable: string): string;
 
-  protected move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target, path } = step;
-    const tool = target.tool ?? (path === "ptp" && "q" in target ? (this.tool ?? "flange") : "flange");
-    this.tool = tool;
+  private accelerate(step: MoveStep, add: (line: string) => void): void {
     const ratio = step.acceleration?.ratio ?? 1;
     if (ratio < LEAST_ACCELERATION)
       throw new UnsupportedStep(
@@ -107,6 +104,13 @@ export abstract class MotionWriter extends BlockStepWriter {
       );
     if (ratio !== this.acceleration) add(`AccSet ${part(100 * ratio)},100;`);
     this.acceleration = ratio;
+  }
+
+  protected move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
+    const { target, path } = step;
+    const tool = target.tool ?? (path === "ptp" && "q" in target ? (this.tool ?? "flange") : "flange");
+    this.tool = tool;
+    this.accelerate(step, add);
     const posture = this.place.posture(step, path === "ptp" ? target : this.place.asPose(target), this.near);
     const at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
     this.near = posture ?? this.near;

@@ -1,6 +1,6 @@
 import type { Condition, SignalLine, TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
-import type { Expression } from "../../parser/structured/index.ts";
+import type { Expression, Argument } from "../../parser/structured/index.ts";
 import { NOTHING, inverted, times, toSix } from "./trsf.ts";
 import { asNumber, binary, finite, kindOf, type Value } from "./values.ts";
 import { KeptData } from "./kept-data.ts";
@@ -84,6 +84,15 @@ export abstract class Evaluation extends KeptData {
         const config = { shoulder: "ssame", elbow: "esame", wrist: "wsame" };
         return { kind: "point", trsf: times(inverted(frame), times(flange, tool.trsf)), father, config };
       }
+      default:
+        return this.measured(name, args, at);
+    }
+  }
+
+  /** Where the robot is, how far places are apart, and what the controller answers. */
+  private measured(name: string, args: readonly Argument[], at: TextPlace): Value {
+    const given = (i: number): Expression => this.given(args, i, name, at);
+    switch (name) {
       case "herej": {
         const { joints_rad } = this.arm;
         if (this.lost !== undefined || joints_rad === undefined)
@@ -99,6 +108,15 @@ export abstract class Evaluation extends KeptData {
         const frame = this.chain(this.of("frame", given(1)));
         return toSix(times(inverted(frame), times(this.father(point.father, at), point.trsf)));
       }
+      default:
+        return this.answered(name, args, at);
+    }
+  }
+
+  /** What the controller answers, and what is computed. */
+  private answered(name: string, args: readonly Argument[], at: TextPlace): Value {
+    const given = (i: number): Expression => this.given(args, i, name, at);
+    switch (name) {
       case "toString": {
         const value = this.numberOf(given(args.length > 1 ? 1 : 0));
         return String(value);
@@ -192,31 +210,35 @@ export abstract class Evaluation extends KeptData {
         const inner = expression.sign === "!" ? this.condition(expression.of) : undefined;
         return inner !== undefined && "is" in inner ? { signal: inner.signal, is: !inner.is } : undefined;
       }
-      case "binary": {
-        const { sign, left, right } = expression;
-        if (right.kind === "truth" && (sign === "==" || sign === "!=")) {
-          const inner = this.condition(left);
-          return inner !== undefined && "is" in inner
-            ? { signal: inner.signal, is: inner.is === (right.value === (sign === "==")) }
-            : undefined;
-        }
-        const line =
-          left.kind === "call" && left.name === "aioGet" && left.args[0]?.value !== undefined
-            ? this.nameOf(left.args[0].value)
-            : undefined;
-        if (
-          line === undefined ||
-          right.kind !== "number" ||
-          kindOf(this.variable(line)) !== "aio" ||
-          (sign !== "<" && sign !== ">")
-        )
-          return undefined;
-        this.declared.signals[line] ??= { kind: "analogue-in" };
-        return sign === ">" ? { signal: line, above: right.value } : { signal: line, below: right.value };
-      }
+      case "binary":
+        return this.comparison(expression);
       default:
         return undefined;
     }
+  }
+
+  /** A line that is compared with a value. */
+  private comparison(expression: Extract<Expression, { kind: "binary" }>): Condition | undefined {
+    const { sign, left, right } = expression;
+    if (right.kind === "truth" && (sign === "==" || sign === "!=")) {
+      const inner = this.condition(left);
+      return inner !== undefined && "is" in inner
+        ? { signal: inner.signal, is: inner.is === (right.value === (sign === "==")) }
+        : undefined;
+    }
+    const line =
+      left.kind === "call" && left.name === "aioGet" && left.args[0]?.value !== undefined
+        ? this.nameOf(left.args[0].value)
+        : undefined;
+    if (
+      line === undefined ||
+      right.kind !== "number" ||
+      kindOf(this.variable(line)) !== "aio" ||
+      (sign !== "<" && sign !== ">")
+    )
+      return undefined;
+    this.declared.signals[line] ??= { kind: "analogue-in" };
+    return sign === ">" ? { signal: line, above: right.value } : { signal: line, below: right.value };
   }
 
   /** Lines are read and written when the program comes to them, not when the robot does. */

@@ -270,6 +270,17 @@ export class Machine extends Motions {
         if (!(s >= 0)) throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
         return { id: id(), type: "wait", s };
       }
+      default:
+        return this.linesAndMessages(statement, word);
+    }
+  }
+
+  /** Analogue lines, what is said, and what does not move the robot. */
+  private linesAndMessages(statement: Do, word: string): Step | undefined {
+    const { name, args } = statement;
+    const given = (i: number): Expression => this.given(args, i, name, statement);
+    const id = (): string => this.stepId(statement);
+    switch (word) {
       case "aioset": {
         const line = this.nameOf(given(0));
         if (line === undefined || !this.isLine(line, "aio"))
