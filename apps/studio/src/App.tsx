@@ -49,6 +49,8 @@ const DemonstrationDialog = lazy(() => import("./features/demonstration/Demonstr
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
+const RobotQuestion = lazy(() => import("./features/robots/RobotQuestion.tsx"));
+const DhTable = lazy(() => import("./features/robots/DhTable.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -177,6 +179,8 @@ export function App() {
         </Suspense>
         <Suspense>
           <Robots />
+          <RobotQuestion />
+          <DhTable />
         </Suspense>
         <Suspense>
           <AddStation />

@@ -1584,6 +1584,7 @@ export type StreamEvent =
         readonly robot: string;
         readonly virtual: boolean;
         readonly watchdog: string;
+        readonly robotFile?: unknown;
       }[];
     }
   | {
@@ -1594,6 +1595,7 @@ export type StreamEvent =
       readonly robot: string;
       readonly virtual: boolean;
       readonly watchdog: string;
+      readonly robotFile?: unknown;
     }
   | {
       readonly type: "closed";

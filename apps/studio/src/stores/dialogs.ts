@@ -9,6 +9,8 @@ export type DialogName =
   | "export"
   | "import"
   | "robots"
+  | "own-robot"
+  | "dh-table"
   | "station"
   | "collision"
   | "cameras"

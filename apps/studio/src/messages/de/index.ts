@@ -8,6 +8,7 @@ import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
+import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
@@ -15,6 +16,7 @@ export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** German, as robot programmers say it; nobody is addressed, what to do stands in the infinitive. */
@@ -30,8 +32,10 @@ export const catalogue: Translation<typeof en> = {
   people: peopleWords,
   headset,
   offline,
+  own,
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };

@@ -6,12 +6,14 @@ import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
+import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -27,8 +29,10 @@ export const en = {
   people: peopleWords,
   headset,
   offline,
+  own,
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };
