@@ -1,3 +1,4 @@
+import { readFile } from "node:fs/promises";
 import { palletSlots, unrolled, type Program } from "@twincell/core";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -69,5 +70,82 @@ test("M-54 T-70 the palletising job is taught from an empty program: three corne
   await page.getByRole("searchbox", { name: "Search the steps" }).fill("output");
   await page.getByText("1 step is found.").waitFor();
   await page.screenshot({ path: picture("editor-search") });
+  expect(problems).toEqual([]);
+});
+
+test("L-30 L-35 M-61 M-62 L-64 the tool's speed stands under its blocks, a lesson is taken twice, an axis is locked while the mouse drags", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("file.new");
+  });
+  const record = async (q: readonly number[]): Promise<void> => {
+    await stand(page, q);
+    await page.getByRole("button", { name: "PTP", exact: true }).first().click();
+  };
+  const judged = (): Promise<unknown> =>
+    page.waitForFunction(() => {
+      const { stale, plan } = window.twincell.stores.playStore.getState();
+      return !stale && plan !== null;
+    });
+  const BESIDE = OVER.with(0, -0.4);
+
+  await record(OVER);
+  await record(BESIDE);
+  await judged();
+  await page.getByRole("button", { name: "Plots" }).click();
+  await page.getByRole("radio", { name: "TCP speed" }).click();
+  await page.evaluate(() => {
+    window.twincell.seek(window.twincell.stores.playStore.getState().plan!.duration_s * 0.75);
+  });
+  // At the playhead, with its unit, without a pointer in the plot.
+  await page
+    .locator(".u-legend .u-series", { hasText: "TCP speed" })
+    .filter({ hasText: /\d mm\/s/ })
+    .waitFor();
+  const [plot, track] = [(await page.locator(".u-over").boundingBox())!, (await page.locator(".track").boundingBox())!];
+  expect(Math.abs(plot.x - track.x)).toBeLessThan(1.5);
+  expect(Math.abs(plot.width - track.width)).toBeLessThan(1.5);
+  await page.screenshot({ path: picture("tcp-speed") });
+  await page.getByRole("button", { name: "Plots" }).click();
+
+  await page.getByRole("button", { name: /^Program · / }).click();
+  await page.getByRole("menuitem", { name: "Make a lesson of this program" }).click();
+  const card = page.getByRole("complementary", { name: "Lesson" });
+  await card.getByText("place 1").waitFor();
+  await record(OVER);
+  await judged();
+  await card.getByText("1 of 2 places").waitFor();
+  await page.screenshot({ path: picture("lesson") });
+  await card.getByRole("button", { name: "Hand in" }).click();
+  await card.getByText("A place is missed.").waitFor();
+  await record(BESIDE);
+  await judged();
+  await card.getByRole("button", { name: "Hand in" }).click();
+  await card.getByText(/Attempt 2: \d+ points · passed/).waitFor();
+  await page.screenshot({ path: picture("lesson-attempts") });
+  const saved = page.waitForEvent("download");
+  await card.getByRole("button", { name: "Report" }).click();
+  expect(await readFile((await (await saved).path())!, "utf8")).toContain("Attempt 2 is the best.");
+
+  // The height of the tool is locked: the ball is dragged up and to the side, and it goes to the side only.
+  await card.getByRole("button", { name: "Leave the lesson" }).click();
+  await stand(page, OVER);
+  await page.getByRole("button", { name: "Lock Z", exact: true }).click();
+  const tcp = () => page.evaluate(() => Array.from(window.twincell.live.now().worldFromTcp.position));
+  const before = await tcp();
+  const at = await page.evaluate(([x, y, z]) => window.twincellScene!.project([x!, y!, z!]), before);
+  await page.mouse.move(at.x, at.y);
+  await page.waitForFunction(() => document.querySelector("canvas")!.style.cursor === "grab");
+  await page.mouse.down();
+  await page.mouse.move(at.x + 30, at.y - 30, { steps: 6 });
+  await page.waitForFunction(([x, y]) => {
+    const [a, b] = window.twincell.live.now().worldFromTcp.position;
+    return Math.hypot(a - x!, b - y!) > 0.01;
+  }, before);
+  await page.mouse.up();
+  expect((await tcp())[2]).toBeCloseTo(before[2]!, 6);
+  await page.getByRole("button", { name: "Lock Z", exact: true }).click();
   expect(problems).toEqual([]);
 });

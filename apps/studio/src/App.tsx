@@ -11,6 +11,8 @@ import { ControlsDialog } from "./features/input/ControlsDialog.tsx";
 import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
+import { LessonCard } from "./features/lesson/LessonCard.tsx";
+import { LessonFile } from "./features/lesson/LessonFile.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
 import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
@@ -30,6 +32,7 @@ import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
 import { cellStore } from "./stores/cell.ts";
 import { textOf, theProgram } from "./stores/document.ts";
+import { lessonStore } from "./stores/lesson.ts";
 import { findStep } from "./stores/program.ts";
 import { selectionStore, type Thing } from "./stores/selection.ts";
 import { textStore } from "./stores/text.ts";
@@ -68,6 +71,7 @@ export function App() {
   const text = useStore(cellStore, state => textOf(state.document));
   const teaching = useStore(viewStore, state => state.mode === "teach");
   const building = useStore(viewStore, state => state.mode === "cell");
+  const learning = useStore(lessonStore, state => state.lesson !== null);
   const layout = useStore(textStore, state => state.layout);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
@@ -144,7 +148,8 @@ export function App() {
           <Suspense>
             <VideoPanels />
           </Suspense>
-          {!phone && !building && <Coach />}
+          {!phone && !building && !learning && <Coach />}
+          <LessonCard />
           <Welcome />
           <SignIn />
           <Notices />
@@ -198,6 +203,7 @@ export function App() {
           <People />
         </Suspense>
         <Files />
+        <LessonFile />
         <Shortcuts />
         <GamepadWatch />
       </div>

@@ -246,6 +246,7 @@ export const teachWords = {
     pressButton: "Knopf drücken …",
     "rebind(what)": "Belegung ändern für {what}",
     reset: "Zurück zur Standardbelegung",
+    target: "Tabelle: Ziel und Greifer",
     "button(n: number)": "Knopf {n}",
     "stick(n: number)": "Stickachse {n}",
     unbound: "nicht belegt",
@@ -271,6 +272,7 @@ export const teachWords = {
       camera: "Übersicht oder nahe Kamera",
       tilt: "Neigung der nahen Kamera",
       edit: "halten: den Punkt am Werkzeug bearbeiten",
+      grip: "halten: Greifer geschlossen",
     },
     sticks: {
       x: "X",
@@ -285,6 +287,8 @@ export const teachWords = {
       "-rx": "drehen X, umgekehrt",
       "-ry": "drehen Y, umgekehrt",
       "-rz": "drehen Z, umgekehrt",
+      "camera-x": "Ansicht drehen",
+      "camera-y": "Ansicht neigen",
     },
   },
   trace: {

@@ -5,6 +5,7 @@ import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
+import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
@@ -26,6 +27,7 @@ export const en = {
   editor,
   people: peopleWords,
   headset,
+  lesson,
   offline,
   phone,
   scene,

@@ -239,6 +239,7 @@ export const teachWords = {
     pressButton: "Press a button …",
     "rebind(what)": "Change the control for {what}",
     reset: "Back to the standard table",
+    target: "Table: target and gripper",
     "button(n: number)": "Button {n}",
     "stick(n: number)": "Stick axis {n}",
     unbound: "not set",
@@ -264,6 +265,7 @@ export const teachWords = {
       camera: "main or close camera",
       tilt: "tilt of the close camera",
       edit: "hold: edit the point the tool is at",
+      grip: "hold: gripper closed",
     },
     sticks: {
       x: "X",
@@ -278,6 +280,8 @@ export const teachWords = {
       "-rx": "turn X, reversed",
       "-ry": "turn Y, reversed",
       "-rz": "turn Z, reversed",
+      "camera-x": "turn the view",
+      "camera-y": "tilt the view",
     },
   },
   trace: {

@@ -113,8 +113,8 @@ function turned(grip: Grip, ray: Ray, axis: Vector3): number {
 
 /**
  * What of a wanted pose the hand may do: a share of its way since the grip, and nothing along locked axes of the handle
- * or of the turn (rows L-28, L-30). At the moment of the grip it is the pose of the grip, whatever the share: taking the
- * tool moves nothing (row L-29).
+ * or of the turn (rows L-28, L-30). At the moment of the grip it is the pose of the grip, whatever the share: taking
+ * the tool moves nothing (row L-29).
  *
  * @param wanted  written in place.
  */
