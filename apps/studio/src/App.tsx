@@ -49,6 +49,7 @@ const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
 const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
+const GloveDialog = lazy(() => import("./features/glove/GloveDialog.tsx"));
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
@@ -197,6 +198,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <DemonstrationDialog />
+        </Suspense>
+        <Suspense>
+          <GloveDialog />
         </Suspense>
         <Suspense>
           <Cameras />

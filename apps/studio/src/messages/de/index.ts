@@ -7,6 +7,7 @@ import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
+import { glove } from "./glove.ts";
 import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
 import { phone } from "./phone.ts";
@@ -29,6 +30,7 @@ export const catalogue: Translation<typeof en> = {
   direct,
   editor,
   people: peopleWords,
+  glove,
   headset,
   lesson,
   offline,
