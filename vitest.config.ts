@@ -7,6 +7,7 @@ const REAL_TIME = [
   "apps/cli/src/virtual.test.ts",
   "apps/cli/src/recordings.test.ts",
   "apps/cli/src/on-robot.test.ts",
+  "apps/cli/src/operations.test.ts",
   "apps/cli/src/vendor-sections.test.ts",
 ];
 

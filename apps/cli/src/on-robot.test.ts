@@ -152,6 +152,14 @@ describe("a controller without a server", () => {
     expect(Number(count)).toBe(5);
     expect(Math.abs(Number(mean) - 32.875)).toBeLessThan(1);
     expect((await standsAt(at))[0]).toBeCloseTo(0.1 + robot.home_rad[0]!, 3);
+    // A step that the connection cannot say, at the end: named before the first one is sent.
+    const spline = programFile("spline", step("p0", turned(0.5), 1), { ...step("bend", turned(0.4)), path: "spline" });
+    const refused = await twincell("run", spline, "--on", "127.0.0.61", ...at.slice(2), "--paced");
+    expect([refused.code, JSON.parse(refused.out)]).toMatchObject([
+      1,
+      { kind: "refused", why: { sentence: expect.stringContaining("“bend” cannot be carried out") as string } },
+    ]);
+    expect((await standsAt(at))[0]).toBeCloseTo(0.1 + robot.home_rad[0]!, 3);
   }, 120_000);
 });
 

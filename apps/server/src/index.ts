@@ -1,6 +1,6 @@
 export { serve, type Served, type ServeOptions } from "./serve.ts";
 export { servePendant, type ServedPendant } from "./pendant.ts";
-export { addToken, readTokens, removeToken, ROLES, type Role } from "./people/tokens.ts";
+export { addToken, mayUse, readTokens, removeToken, ROLES, tokenReader, type Role } from "./people/tokens.ts";
 export { auditFile, openAuditLog, readAudit } from "./people/audit-log.ts";
 export { checkBackup, makeBackup, restoreBackup } from "./files/backup.ts";
 export { lanAddresses } from "./lan.ts";
@@ -13,3 +13,4 @@ export { recordRemote, type RemoteRecorder } from "./stations/record-remote.ts";
 export { joinHost, joinServer, type Joined, type Told } from "./stations/join.ts";
 export { readConnections, restoreConnections, saveConnection, type SavedConnection } from "./stations/connections.ts";
 export { schedulerWith } from "./api/robots.ts";
+export { jsonLog, textLog, withoutSecrets, type Log } from "./operations/log.ts";

@@ -47,12 +47,13 @@ export function studioListener(
   hosts: ReadonlySet<string>,
   access: AccessCode | null,
   api: ReturnType<typeof apiListener> | null,
+  say: (sentence: string) => void,
 ): RequestListener {
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
       if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
       response.end("The server could not answer this request.\n");
-      console.error(problem instanceof Error ? problem.message : String(problem));
+      say(problem instanceof Error ? problem.message : String(problem));
     });
   };
 

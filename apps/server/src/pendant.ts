@@ -26,7 +26,9 @@ export type ServedPendant =
 /** Serves the web pendant of one virtual controller. */
 export async function servePendant({ studio, host, port, ...options }: ServePendantOptions): Promise<ServedPendant> {
   const hosts = new Set([...LOOPBACK, host]);
-  const server = createServer(studioListener(staticFiles(studio), hosts, null, null));
+  const server = createServer(
+    studioListener(staticFiles(studio), hosts, null, null, sentence => console.error(sentence)),
+  );
   const problem = await new Promise<Error | null>(resolve => {
     server.once("error", resolve);
     server.listen(port, host, () => {

@@ -26,16 +26,22 @@ import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
 import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
-import { staticFiles } from "./static-files.ts";
+import { siteFiles } from "./site-files.ts";
 import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
 import type { StandardContext } from "./standards/standard.ts";
 import { joinFleet, ownFleet, type Fleet } from "./fleet/fleet.ts";
 import type { NatsOptions } from "./fleet/nats.ts";
 import { robotStates } from "./standards/robot-states.ts";
+import { openDataFolder } from "./operations/data-folder.ts";
+import { textLog, type Log } from "./operations/log.ts";
+import { logRobots } from "./operations/log-robots.ts";
+import { standstill } from "./operations/standstill.ts";
 
 export interface ServeOptions {
   /** Folder of the built studio. */
   readonly studio: string;
+  /** Folder of the built documentation, which is shown at /docs/. */
+  readonly docs?: string;
   /** 0 takes any free port. */
   readonly port: number;
   /** Where the server keeps what must survive it. */
@@ -58,6 +64,8 @@ export interface ServeOptions {
   readonly nats?: NatsOptions;
   /** Standards of plants that are spoken besides the API. */
   readonly standards?: StandardsOptions;
+  /** Where it says what happens; left out: warnings go to stderr as sentences. */
+  readonly log?: Log;
 }
 export interface Served {
   readonly url: string;
@@ -75,14 +83,22 @@ export interface Served {
 export async function serve(options: ServeOptions): Promise<Served> {
   // A file that cannot be read is said before anything listens.
   if (options.connections !== undefined) readConnections(options.connections);
+  const version = options.version ?? "";
+  const log = options.log ?? textLog(line => process.stderr.write(line));
+  const say = (sentence: string): void => {
+    log.say("warning", "server", sentence);
+  };
+  const clock_ms = (): number => Date.now();
+  const { data } = options;
+  const folder = data === undefined ? null : openDataFolder(data, version, clock_ms, nodeScheduler, say);
+  const dated_ms = folder?.now_ms ?? clock_ms;
   const addresses = options.lan ? lanAddresses() : [];
-  const accounts = peopleOf(options);
+  const accounts = peopleOf(options, dated_ms);
   const access = options.lan && !accounts ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const version = options.version ?? "";
   const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
@@ -91,12 +107,9 @@ export async function serve(options: ServeOptions): Promise<Served> {
     { training: options.training, robots: allowed },
   );
   const robots = (parts.robots = createApiRobots(stations, nodeScheduler));
-  const say = (sentence: string): void => {
-    console.error(sentence);
-  };
-  const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
+  const audit = data === undefined ? null : openAuditLog(data, clock_ms, say);
   const auditing = audit && auditHost(stations, audit, say);
-  const tokens = tokenReader(options.data, () => Date.now(), say);
+  const tokens = tokenReader(data, dated_ms, say);
   const sessions = createSessions(() => nodeScheduler.now_s());
   const signedIn = (cookies: string | undefined): Account | null => {
     const name = sessions.nameOf(cookies);
@@ -136,14 +149,17 @@ export async function serve(options: ServeOptions): Promise<Served> {
     counts,
     enter: (request, route, subject) => gate.enter(request, route.access, subject),
     audit,
+    closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(staticFiles(options.studio), hosts, access, api);
+  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say);
   const own = options.lan ? await certificate(options.data, addresses) : null;
   const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
-  const states = robotStates(stations, () => Date.now(), say);
+  const states = robotStates(stations, clock_ms, say);
+  const logging = logRobots(states, log);
   const end = (): void => {
     ready = false;
+    logging();
     states.close();
     robots.close();
     stations.close();
@@ -151,6 +167,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     judge.close();
     auditing?.();
     audit?.close();
+    folder?.close();
   };
   const host = options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1");
   let standards: StartedStandards;
@@ -163,7 +180,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
       states,
       robots,
       scheduler: nodeScheduler,
-      now_ms: () => Date.now(),
+      now_ms: clock_ms,
       version,
       host,
       hosts,
@@ -184,9 +201,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const recorder =
     options.data === undefined
       ? null
-      : await recordServer(stations, join(options.data, "recordings"), nodeScheduler, sentence => {
-          console.error(sentence);
-        });
+      : await recordServer(stations, join(options.data, "recordings"), nodeScheduler, say);
   const restoring =
     options.connections === undefined ? null : restoreConnections(stations, options.connections, nodeScheduler, say);
   const port = (server.address() as AddressInfo).port;
@@ -206,15 +221,21 @@ export async function serve(options: ServeOptions): Promise<Served> {
     },
   );
   const close = async (): Promise<void> => {
-    // Robots first: what still moves is stopped before anything that could be waited for.
+    // Robots first: nobody commands any more, what still moves is stopped and waited for until it stands.
+    ready = false;
+    log.say("info", "closing", "The server closes: every robot is stopped.");
     robots.stop("server", undefined, false);
     restoring?.close();
-    recorder?.close();
+    socket.close();
+    robots.close();
     await standards.close();
+    const moving = (id: string): boolean => states.all.get(id)?.sample?.moving === true;
+    for (const id of await standstill(stations, moving, nodeScheduler))
+      log.say("error", "closing", `${id} was told to stop and still says that it moves: look at it.`);
+    recorder?.close();
     await parts.fleet?.close();
     await new Promise<void>(resolve => {
       end();
-      socket.close();
       server.closeAllConnections();
       server.close(() => {
         resolve();
@@ -237,12 +258,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
 }
 
 /** The accounts of the data folder where people sign in by name, or null. */
-function peopleOf({ accounts, data }: ServeOptions): Accounts | null {
+function peopleOf({ accounts, data }: ServeOptions, now_ms: () => number): Accounts | null {
   if (accounts === true && data === undefined)
     throw new PlainFault(
       "people.no-folder",
       "Accounts are kept in a data folder.",
       "Start the server with --data DIR.",
     );
-  return data !== undefined && (accounts === true || hasAccounts(data)) ? openAccounts(data, () => Date.now()) : null;
+  return data !== undefined && (accounts === true || hasAccounts(data)) ? openAccounts(data, now_ms) : null;
 }

@@ -77,6 +77,12 @@ export interface RobotController extends StateSource {
    * next when it is needed (T-53).
    */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
+  /**
+   * Why this controller cannot be told that step, wherever the robot stands; null when it can. It follows from what the
+   * connection can say at all, so that a whole program is asked for before its first motion. Steps that hold others are
+   * asked by what they hold.
+   */
+  cannotCarryOut(step: Step): Refusal | null;
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
   stop(emergency?: boolean): void;
   /**

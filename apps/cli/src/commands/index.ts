@@ -25,6 +25,7 @@ import { replayCommand } from "./replay.ts";
 import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
+import { serviceCommand } from "./service.ts";
 import { simulateCommand } from "./simulate.ts";
 import { stopCommand } from "./stop.ts";
 import { tokenCommand } from "./token.ts";
@@ -47,6 +48,7 @@ export const COMMANDS: readonly Command[] = [
   parseCommand,
   runCommand,
   serveCommand,
+  serviceCommand,
   virtualCommand,
   connectCommand,
   moveCommand,

@@ -25,6 +25,9 @@ export async function runOn(options: Given): Promise<number> {
       : await executed(options, robot);
     const despite = codesOf(options);
     if (!isPaced) return ask({ type: "run", station, program, asText: options.flag("as-text"), despite });
+    // Steps go out one by one: what the connection cannot be told is known before the first.
+    const taken = await ask({ type: "takes", station, program });
+    if (taken.kind !== "done") return taken;
     const paced = await runPaced(unrolled(program), program, {
       scheduler: nodeScheduler,
       gap_s,

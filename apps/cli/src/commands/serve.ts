@@ -1,15 +1,19 @@
-import { existsSync } from "node:fs";
+import { existsSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { spawn } from "node:child_process";
-import { serve, type Served, type ServeOptions } from "@twincell/server";
+import { jsonLog, serve, textLog, type Log, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
 import { given } from "../io/arguments.ts";
-import { checkPort, NATS_OPTIONS, natsOf, STANDARD_OPTIONS, standardsOf } from "../io/standards.ts";
-import { studioFolder } from "../io/studio-folder.ts";
+import cli from "../../package.json" with { type: "json" };
+import { checkPort, natsOf, standardsOf } from "../io/standards.ts";
+import { SERVE_OPTIONS, serveArguments } from "../io/serve-options.ts";
+import { docsFolder, studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 const DEFAULT_PORT = 7341;
-const studio = studioFolder();
+const SETTINGS = Object.fromEntries(
+  SERVE_OPTIONS.map(({ name, kind }) => [name, { type: kind === "flag" ? "boolean" : "string" } as const]),
+);
 
 export const serveCommand: Command = {
   name: "serve",
@@ -17,6 +21,7 @@ export const serveCommand: Command = {
   usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--accounts] [--training] [--open]
                [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
                [--webhooks FILE] [--otlp URL] [--nats HOST:PORT,… --site NAME [--nats-replicas N] [--nats-hours H]]
+               [--host ADDRESS] [--config FILE] [--log text|json] [--studio DIR]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
@@ -34,26 +39,28 @@ export const serveCommand: Command = {
   --nats A,B,C --site NAME  tells a NATS cluster (host:port) of its robots under that name and hears of those of others (docs/scale.md);
                --nats-replicas N copies of what is kept (default 1; 3 in a cluster of three), --nats-hours H how long states are kept (default 168)
   --training   virtual controllers only: nobody reaches a real robot from here
-  --open       open the address in a browser where there is one`,
+  --open       open the address in a browser where there is one
+  --host A     address to listen on; without it loopback, with --lan every address
+  --config FILE  settings as JSON, {"port":7341,"data":"/var/lib/twincell","lan":true}; each also as TWINCELL_SERVE_PORT=7341 in the environment.
+               The command line wins over the environment, the environment over the file (docs/operations.md has the table)
+  --studio DIR  another built studio to serve
+  --log json   one JSON object a line on stdout, without secrets: the access code and the link of the first admin are then in
+               access-code.txt and set-up-link.txt of --data, which only their owner may read
+
+SIGINT and SIGTERM stop every robot, wait until it stands, finish recordings and logs, and end; exit 0. A second one ends at once.`,
   async run(args) {
-    const options = given(args, {
-      port: { type: "string" },
-      data: { type: "string" },
-      lan: { type: "boolean" },
-      robots: { type: "string" },
-      accounts: { type: "boolean" },
-      training: { type: "boolean" },
-      connections: { type: "string" },
-      open: { type: "boolean" },
-      ...STANDARD_OPTIONS,
-      ...NATS_OPTIONS,
-    });
+    const options = given(serveArguments(args, process.env), SETTINGS);
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
     const port = options.number("port");
     checkPort("port", port);
+    const other = options.text("studio");
+    const studio = other ?? studioFolder();
     if (!existsSync(`${studio}/index.html`))
-      throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
+      throw other === undefined
+        ? new UseFault("The studio is not built yet.", "Run npm run build, or npm start.")
+        : new UseFault(`There is no built studio in ${other}.`, "Name the folder that has its index.html.");
 
+    const docs = docsFolder();
     const data = options.text("data");
     const kept = data === undefined ? undefined : join(data, "connections.json");
     const connections = options.text("connections") ?? (kept !== undefined && existsSync(kept) ? kept : undefined);
@@ -62,9 +69,17 @@ export const serveCommand: Command = {
       ?.split(",")
       .map(each => each.trim())
       .filter(each => each !== "");
+    const host = options.text("host");
+    const kind = options.text("log") ?? "text";
+    if (kind !== "text" && kind !== "json") throw new UseFault(`--log wants text or json, not ${kind}.`);
+    const log = kind === "json" ? jsonLog(line => process.stdout.write(line), Date.now) : textLog(toStderr);
     const served = await listen(
       {
         studio,
+        ...(docs === undefined ? {} : { docs }),
+        log,
+        version: cli.version,
+        ...(host === undefined ? {} : { host }),
         port: port ?? DEFAULT_PORT,
         lan: options.flag("lan"),
         accounts: options.flag("accounts"),
@@ -77,16 +92,8 @@ export const serveCommand: Command = {
       },
       port === undefined,
     );
-    process.stdout.write(`Twincell is at ${served.url}\n`);
-    for (const url of served.lanUrls)
-      process.stdout.write(`From another machine: ${url}\n${await qrText(url, { type: "terminal", small: true })}`);
-    if (served.code)
-      process.stdout.write(
-        `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
-      );
-    if (served.setUp !== null) process.stdout.write(`Set up the first admin, once: ${served.setUp}\n`);
-    for (const address of served.standards) process.stdout.write(`${address}\n`);
-    process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
+    if (kind === "json") announce(log, served, data);
+    else await greet(served);
     if (options.flag("open")) openBrowser(served.url);
 
     await new Promise<void>(resolve => {
@@ -99,6 +106,42 @@ export const serveCommand: Command = {
     return 0;
   },
 };
+
+const toStderr = (line: string): void => {
+  process.stderr.write(line);
+};
+
+async function greet(served: Served): Promise<void> {
+  process.stdout.write(`Twincell is at ${served.url}\n`);
+  for (const url of served.lanUrls)
+    process.stdout.write(`From another machine: ${url}\n${await qrText(url, { type: "terminal", small: true })}`);
+  if (served.code)
+    process.stdout.write(
+      `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
+    );
+  if (served.setUp !== null) process.stdout.write(`Set up the first admin, once: ${served.setUp}\n`);
+  for (const address of served.standards) process.stdout.write(`${address}\n`);
+  process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
+}
+
+/** The same as lines of a log that others may read: what lets somebody in goes into files of the owner instead. */
+function announce(log: Log, { url, code, setUp, standards }: Served, data: string | undefined): void {
+  log.say("info", "listening", `Twincell is at ${url}`, { url: url.split("?")[0]! });
+  for (const address of standards) log.say("info", "standard", address);
+  for (const [file, text] of [
+    ["access-code.txt", code],
+    ["set-up-link.txt", setUp],
+  ] as const) {
+    if (text === null) continue;
+    if (data === undefined) {
+      log.say("warning", "secret", "There is an access code, and no --data to keep it in: it is not shown in a log.");
+      continue;
+    }
+    const path = join(data, file);
+    writeFileSync(path, `${text}\n`, { mode: 0o600 });
+    log.say("info", "secret", `What lets people in is in ${path}.`);
+  }
+}
 
 /** A port nobody asked for may be the next free one; a port that was asked for is that one or a sentence. */
 async function listen(options: ServeOptions, mayMove: boolean): Promise<Served> {

@@ -2,19 +2,6 @@ import type { ServeOptions } from "@twincell/server";
 import type { Given } from "./arguments.ts";
 import { UseFault } from "./usage.ts";
 
-/** Options by which a server speaks standards of plants. */
-export const STANDARD_OPTIONS = {
-  opcua: { type: "string" },
-  rosbridge: { type: "string" },
-  foxglove: { type: "string" },
-  modbus: { type: "string" },
-  "modbus-lines": { type: "string" },
-  sparkplug: { type: "string" },
-  "sparkplug-node": { type: "string" },
-  webhooks: { type: "string" },
-  otlp: { type: "string" },
-} as const;
-
 export function checkPort(name: string, port: number | undefined): number | undefined {
   if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port <= 65535))
     throw new UseFault(`--${name} wants a whole number from 0 to 65535, not ${port}.`);
@@ -48,13 +35,6 @@ export function standardsOf(options: Given): NonNullable<ServeOptions["standards
   };
 }
 
-/** Options by which servers know each other. */
-export const NATS_OPTIONS = {
-  nats: { type: "string" },
-  site: { type: "string" },
-  "nats-replicas": { type: "string" },
-  "nats-hours": { type: "string" },
-} as const;
 export function natsOf(options: Given): Pick<ServeOptions, "nats"> {
   const servers = options
     .text("nats")

@@ -11,13 +11,15 @@ import {
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { Client } from "@modelcontextprotocol/client";
+import { Client, StreamableHTTPClientTransport } from "@modelcontextprotocol/client";
 import { StdioClientTransport } from "@modelcontextprotocol/client/stdio";
 import { addCatalogue, checkProgram, seededRandom, type MoveStep, type Program } from "@twincell/core";
 import { CATALOGUE } from "@twincell/core/catalogue";
 import { saveDocument, selectedProgram, tracedCartonCell, type CellDocument } from "@twincell/project";
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from "vitest";
+import { addToken } from "@twincell/server";
 import { CellFolder } from "./cell-folder.ts";
+import { serveMcp } from "./http.ts";
 import { answerOf, TOOLS } from "./server.ts";
 import { followRepairs } from "./testing/follow-repairs.ts";
 
@@ -61,6 +63,55 @@ const call = async (name: string, asked: unknown): Promise<{ failed: boolean; an
 };
 
 describe("twincell mcp", () => {
+  test("by HTTP the same client lists the same tools and judges a program with a token; without one, with a viewer's, from another page and under another name nothing is answered", async () => {
+    const data = mkdtempSync(join(tmpdir(), "twincell-mcp-data-"));
+    const token = addToken(data, "agent", "programmer", null)!;
+    const viewer = addToken(data, "viewer", "viewer", null)!;
+    const said: string[] = [];
+    const served = await serveMcp({
+      folder: await CellFolder.open(cells),
+      port: 0,
+      data,
+      say: text => said.push(text),
+    });
+    try {
+      const client = new Client({ name: "test", version: "1" });
+      const headers = { authorization: `Bearer ${token}` };
+      await client.connect(new StreamableHTTPClientTransport(new URL(served.url), { requestInit: { headers } }));
+      const { tools } = await client.listTools();
+      expect(tools.map(({ name }) => name).toSorted()).toEqual(TOOLS.map(({ name }) => name).toSorted());
+      const judged = await client.callTool({ name: "check", arguments: { cell: "good.json" } });
+      expect(judged.structuredContent).toMatchObject({ verdict: { ok: true } });
+      await client.close();
+      const list = JSON.stringify({ jsonrpc: "2.0", id: 1, method: "tools/list" });
+      const ask = async (more: Record<string, string>, path = ""): Promise<number> => {
+        const { request } = await import("node:http");
+        return new Promise((resolve, reject) => {
+          const asked = request(new URL(served.url + path), {
+            method: "POST",
+            headers: { "content-type": "application/json", accept: "application/json, text/event-stream", ...more },
+          });
+          asked.once("error", reject);
+          asked.once("response", response => {
+            response.resume();
+            resolve(response.statusCode!);
+          });
+          asked.end(list);
+        });
+      };
+      expect(await ask(headers)).toBe(200);
+      expect(await ask({})).toBe(401);
+      expect(await ask({ authorization: "Bearer twincell_forged" })).toBe(401);
+      expect(await ask({ authorization: `Bearer ${viewer}` })).toBe(403);
+      expect(await ask({ ...headers, origin: "http://evil.example" })).toBe(403);
+      expect(await ask({ ...headers, host: "evil.example" })).toBe(403);
+      expect(await ask(headers, "/elsewhere")).toBe(404);
+      expect(said).toEqual([]);
+    } finally {
+      await served.close();
+    }
+  });
+
   test("a client published by others lists the tools, repairs a program by its repairs, exports and proposes it", async () => {
     const client = new Client({ name: "test", version: "1" });
     const transport = new StdioClientTransport({

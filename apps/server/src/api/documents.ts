@@ -63,8 +63,13 @@ export function documentFolder(folder: string | undefined, kind: "programs" | "c
       if (fault !== null) return refused("documents.unreadable", fault, "Nothing was kept.");
       await mkdir(join(folder, kind), { recursive: true });
       const half = `${at(name)}.${process.pid}.new`;
-      await writeFile(half, `${JSON.stringify(document, null, 2)}\n`, { flush: true });
-      await rename(half, at(name));
+      try {
+        await writeFile(half, `${JSON.stringify(document, null, 2)}\n`, { flush: true });
+        await rename(half, at(name));
+      } catch (problem) {
+        await rm(half, { force: true });
+        throw problem;
+      }
       return { kind: "done" };
     },
     async delete(name: string): Promise<CommandOutcome> {

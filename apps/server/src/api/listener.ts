@@ -1,5 +1,6 @@
 import type { IncomingMessage, ServerResponse } from "node:http";
 import { once } from "node:events";
+import { diskWords } from "../files/recordings-folder.ts";
 import { sameOrigin } from "../sockets/doors.ts";
 import type { AuditLog } from "../people/audit-log.ts";
 import { findRoute, json, readBody, refusal, type Answer, type Call, type Entered, type Handlers } from "./calls.ts";
@@ -13,13 +14,22 @@ export interface ApiOptions {
   readonly counts: Map<number, number>;
   /** Where changes of documents are written down; acts at robots are by their host. */
   readonly audit: AuditLog | null;
+  /** Whether the server closes: nothing is commanded or kept any more. */
+  readonly closing: () => boolean;
   /** Told of each answer, by the name of its route: where requests are traced. */
   readonly observe?: (route: string, method: string, status: number, began_ms: number) => void;
+}
+/** What the disk of the data folder did not take, in words; null for anything else. */
+function diskRefusal(problem: unknown): ReturnType<typeof refusal> | null {
+  const why = diskWords(problem);
+  return why === null
+    ? null
+    : refusal("server.disk", `Nothing was kept: ${why}.`, "Make room in the data folder of the server, and ask again.");
 }
 const isLoopback = (address = ""): boolean => address === "::1" || /^(::ffff:)?127\./.test(address);
 
 /** Answers one request at an address of the API. */
-export function apiListener({ handlers, headers, enter, counts, audit, observe }: ApiOptions) {
+export function apiListener({ handlers, headers, enter, counts, audit, closing, observe }: ApiOptions) {
   return async function answer(request: IncomingMessage, response: ServerResponse, path: string): Promise<void> {
     const gone = new Set<() => void>();
     const began_ms = Date.now();
@@ -74,6 +84,8 @@ export function apiListener({ handlers, headers, enter, counts, audit, observe }
         answer: json(refusal("api.access", entered.sentence, entered.hint), entered.status),
         ...(entered.status === 401 ? { more: { "www-authenticate": "Bearer" } } : {}),
       };
+    if (closing() && (found.route.access === "command" || found.route.access === "write"))
+      return { answer: json(refusal("server.closing", "This server closes.", "Ask again when it is back."), 503) };
     let body: unknown;
     if (found.route.body) {
       const read = await readBody(request);
@@ -112,7 +124,14 @@ export function apiListener({ handlers, headers, enter, counts, audit, observe }
       },
     };
     const handle = handlers[found.id as ApiRouteId] as (call: Call<never>) => Answer | Promise<Answer>;
-    const answered = await handle(call);
+    let answered: Answer;
+    try {
+      answered = await handle(call);
+    } catch (problem) {
+      const full = diskRefusal(problem);
+      if (full === null) throw problem;
+      answered = json(full, 507);
+    }
     if (found.route.access === "write" || found.route.access === "people")
       audit?.write({
         who: entered.who,

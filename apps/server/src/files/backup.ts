@@ -11,7 +11,7 @@ const FORMAT = "twincell.backup";
 const VERSION = 1;
 const LIST = "backup.json";
 /** Belong to the server that runs, not to what it keeps. */
-const LEFT_OUT: ReadonlySet<string> = new Set(["audit.lock"]);
+const LEFT_OUT: ReadonlySet<string> = new Set(["audit.lock", "access-code.txt", "set-up-link.txt"]);
 const isHalf = (name: string): boolean => name.endsWith(".new");
 const list = z.object({
   format: z.literal(FORMAT),

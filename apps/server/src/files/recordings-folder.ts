@@ -15,6 +15,11 @@ const WHY: Readonly<Record<string, string>> = {
   ENOTDIR: "a part of the path is a file, not a folder",
   EISDIR: "it is a folder",
 };
+/** The operating system's reason why nothing could be written, in words; null for what is no such reason. */
+export function diskWords(problem: unknown): string | null {
+  const code = problem instanceof Error && "code" in problem ? String(problem.code) : "";
+  return WHY[code] ?? null;
+}
 const inWords = (problem: unknown): Error => {
   const code = problem instanceof Error && "code" in problem ? String(problem.code) : "";
   return new Error(WHY[code] ?? (problem instanceof Error ? problem.message : String(problem)));

@@ -1,12 +1,11 @@
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOptions, Opened } from "@twincell/controllers";
 import {
-  emptyProgram,
-  type CommandOutcome,
-  type JointSample,
-  type Pose,
-  type Refusal,
-  type Step,
-} from "@twincell/core";
+  stepOfMotion,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterOptions,
+  type Opened,
+} from "@twincell/controllers";
+import { emptyProgram, type CommandOutcome, type JointSample, type Refusal, type Step } from "@twincell/core";
 import { createClient, PLUG_IN_PORT, type Client, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { lines } from "./lines.ts";
 
@@ -260,9 +259,11 @@ export function createPlugInAdapter({ robot, scheduler, network, host, ports }: 
       session?.end();
       session = null;
     },
+    // What its maker's controller can say is asked of it with each command.
+    cannotSay: () => null,
     move(motion) {
       complaint = "";
-      return carryOut(stepOf(motion));
+      return carryOut(stepOfMotion(motion));
     },
     stop(emergency) {
       session?.client.stop(STATION, emergency);
@@ -277,20 +278,4 @@ export function createPlugInAdapter({ robot, scheduler, network, host, ports }: 
     setPayload: (mass_kg, center_m) =>
       session ? tell(carryOut({ id: "payload", type: "payload", mass_kg, center_m: [...center_m] })) : gone,
   };
-}
-
-/** The base is the world here, and the flange the tool. */
-function stepOf(motion: AdapterMotion): Step {
-  const base = { id: "move", type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-  if (motion.path === "joints")
-    return { ...base, path: "ptp", target: { q: Array.from(motion.q_rad) }, speed: { ratio: motion.ratio } };
-  const at = (baseFromFlange: Pose<"base", "flange">) => ({
-    pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
-    frame: "world",
-    tool: "flange",
-  });
-  const speed = { mps: motion.speed_mps };
-  return motion.path === "line"
-    ? { ...base, path: "lin", target: at(motion.baseFromFlange), speed }
-    : { ...base, path: "circ", via: at(motion.baseFromVia), target: at(motion.baseFromFlange), speed };
 }

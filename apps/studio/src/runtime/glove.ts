@@ -116,7 +116,7 @@ async function send(text: string): Promise<void> {
   }
 }
 
-/** One line of the glove: time, three voltages, orientation, five 12-bit numbers. Anything else is counted and left out. */
+/** One line of the glove: time, three voltages, orientation, five 12-bit numbers. Anything else is left out. */
 function take(text: string): void {
   if (text.trim() === "" || text.startsWith("#") || /^\s*t_s\b/i.test(text)) return;
   const values = text.split(",").map(part => (part.trim() === "" ? NaN : Number(part)));

@@ -39,6 +39,15 @@ export type AdapterMotion =
       readonly speed_mps: number;
     });
 
+/**
+ * What a connection is to say, without where it leads: whether it can is known before anything moves. An
+ * `AdapterMotion` is one of these.
+ */
+export type AdapterOrder =
+  | ({ readonly kind?: "motion" } & Pick<AdapterMotion, "path" | "acceleration">)
+  | { readonly kind: "signal"; readonly signal: string; readonly value: boolean | number }
+  | { readonly kind: "gripper"; readonly closed: boolean };
+
 /** What a connection tells. `lent` is only valid during the call. */
 export interface AdapterEvents {
   /** A state, as soon as it came. Time is the controller's own; `sequence` counts what the controller sent. */
@@ -71,6 +80,11 @@ export interface ControllerAdapter {
   open(events: AdapterEvents): Promise<Opened>;
   /** Closes what is open, without a word to `events`. A motion under way resolves as stopped. */
   close(): void;
+  /**
+   * Why the connection cannot say that, wherever the robot stands; null when it can. The adapter itself asks this
+   * before it encodes, so that there is no second list. Sends nothing.
+   */
+  cannotSay(order: AdapterOrder): Refusal | null;
   /** Starts a motion and resolves when the controller says how it ended. One at a time. */
   move(motion: AdapterMotion): Promise<CommandOutcome>;
   /** Stops along the path; an emergency also takes the drives off. Sent at once, ahead of whatever waits. */

@@ -5,11 +5,11 @@ import {
   RunPlanner,
   type MoveStep,
   type PlanContext,
+  type Pose,
   type Refusal,
   type Robot,
 } from "@twincell/core";
 import type { AdapterMotion } from "./adapter.ts";
-import { noSuchMotion } from "./words.ts";
 
 export type MotionAnswer =
   | { readonly kind: "motion"; readonly motion: AdapterMotion }
@@ -28,11 +28,11 @@ export class MotionMaker {
     this.planner = new RunPlanner(robot);
   }
 
-  /** @param from_rad  where the robot stands, at rest. */
+  /**
+   * @param step  one that the connection can say: a spline or a search has no motion of its own here.
+   * @param from_rad  where the robot stands, at rest. */
   make(step: MoveStep, context: PlanContext, from_rad: Float64Array): MotionAnswer {
     const { robot } = this;
-    if (step.path === "spline") return { kind: "refused", why: noSuchMotion(robot, step, "part of a spline") };
-    if (step.until !== undefined) return { kind: "refused", why: noSuchMotion(robot, step, "a search") };
     const move = resolveMove(step, robot, context);
     const answer = this.planner.plan([move], from_rad);
     if (answer.kind === "stopped") return { kind: "refused", why: explainStop(answer.stop, move, robot) };
@@ -84,5 +84,30 @@ export class MotionMaker {
     const SLOW_MPS = 1e-3;
     const run = this.planner.plan([resolveMove({ ...step, speed: { mps: SLOW_MPS } }, this.robot, context)], from_rad);
     return run.kind === "timed" ? run.run.duration_s * SLOW_MPS : 0;
+  }
+}
+
+/** A motion as a step of a program, for adapters that make the path themselves. */
+export function stepOfMotion(motion: AdapterMotion): MoveStep {
+  const base = { id: "motion", type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
+  // The base is the world here, and the flange its tool.
+  const at = (baseFromFlange: Pose<"base", "flange">) => ({
+    pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  });
+  switch (motion.path) {
+    case "joints":
+      return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
+    case "line":
+      return { ...base, path: "lin", target: at(motion.baseFromFlange), speed: { mps: motion.speed_mps } };
+    case "arc":
+      return {
+        ...base,
+        path: "circ",
+        target: at(motion.baseFromFlange),
+        via: at(motion.baseFromVia),
+        speed: { mps: motion.speed_mps },
+      };
   }
 }

@@ -12,6 +12,7 @@ import {
 } from "@twincell/core";
 import type { ControllerAdapter, AdapterMotion } from "./adapter.ts";
 import { MotionMaker } from "./motion.ts";
+import { stepRefusal, stepsRefusal } from "./sayable.ts";
 import { noPayload, notPrimitive, waitedInVain } from "./words.ts";
 import { DONE } from "../outcomes.ts";
 
@@ -35,10 +36,12 @@ export interface StepsOptions {
 
 /**
  * Sends one primitive step after the other, each when the one before has ended. Ends with the first that is not done.
+ * Steps that are known beforehand are all looked at before the first: one that cannot be told refuses them all.
  */
 export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): Promise<CommandOutcome> {
   const { face: adapter, robot, scheduler, signals, ended } = options;
   const maker = new MotionMaker(robot);
+  const cannotCarryOut = (step: Step): Refusal | null => stepRefusal(step, adapter, robot);
 
   const until = (so: () => boolean): Promise<void> =>
     new Promise(resolve => {
@@ -63,6 +66,8 @@ export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): P
   }
 
   async function send(step: Step): Promise<CommandOutcome> {
+    const unsaid = cannotCarryOut(step);
+    if (unsaid) return refusedBy(unsaid);
     switch (step.type) {
       case "move": {
         const made = maker.make(step, options.context, options.measured_rad());
@@ -107,6 +112,8 @@ export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): P
     }
   }
 
+  const known = Array.isArray(steps) ? stepsRefusal(steps as readonly Step[], { cannotCarryOut }) : null;
+  if (known) return refusedBy(known);
   let first = true;
   for (const step of steps) {
     if (ended()) break;

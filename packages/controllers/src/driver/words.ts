@@ -1,4 +1,4 @@
-import type { MoveStep, Refusal, Robot, Step } from "@twincell/core";
+import type { Refusal, Robot, Step } from "@twincell/core";
 
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 
@@ -22,10 +22,16 @@ export const noAnswer = (name: string, after_s: number): Refusal =>
     `${name} did not answer within ${after_s} s.`,
     "Look at its address, its cable and whether it is on.",
   );
-export const noSuchMotion = (robot: Robot, step: MoveStep, what: string): Refusal =>
+export const noSpline = (robot: Robot): Refusal =>
   refusal(
     "controller.motion",
-    `Step “${step.id}” is ${what}, which ${robot.name} cannot be told move by move.`,
+    `${robot.name} cannot be told a spline move by move.`,
+    "Run the program as text of the controller's own language.",
+  );
+export const noSearch = (robot: Robot): Refusal =>
+  refusal(
+    "controller.motion",
+    `${robot.name} cannot be told a search move by move.`,
     "Run the program as text of the controller's own language.",
   );
 export const noPayload = (robot: Robot): Refusal =>
@@ -54,3 +60,16 @@ export const resetUnseen = (robot: Robot, after_s: number): Refusal =>
   );
 export const wasStopped = (robot: Robot): Refusal =>
   refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
+/** One sentence for each reason, with every step that it keeps from being carried out. */
+export const unsayable = (reasons: readonly { readonly why: Refusal; readonly steps: readonly string[] }[]): Refusal =>
+  refusal(
+    reasons[0]!.why.code,
+    [
+      ...reasons.map(
+        ({ why, steps }) =>
+          `${steps.map(id => `“${id}”`).join(", ")} cannot be carried out over this connection: ${why.sentence}`,
+      ),
+      "Nothing has moved.",
+    ].join(" "),
+    [...new Set(reasons.map(({ why }) => why.hint))].join(" "),
+  );

@@ -2,8 +2,10 @@ import {
   flangePose,
   type CommandOutcome,
   type ManualScheduler,
+  type Pose,
   type Robot,
   type RobotController,
+  type Step,
 } from "@twincell/core";
 import { afterEach, describe, expect, test } from "vitest";
 import type { Cannot } from "../driver/index.ts";
@@ -39,6 +41,50 @@ export interface Contract {
 
 const FRAME_S = 1 / 90;
 const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+
+type FromFlange = Pose<"base", "flange">;
+/** One step of every kind and setting, a little from where the robot stands: not every connection can say it. */
+const ORDERS: readonly (readonly [string, (here: FromFlange, q_rad: Float64Array) => Step])[] = (() => {
+  const beside = ({ position: [x, y, z], quaternion }: FromFlange, dx_m: number, dz_m: number) => ({
+    pose: { position: [x - dx_m, y, z - dz_m], quaternion } as unknown as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  });
+  const move = { type: "move", speed: { mps: 0.05 }, blend_m: 0 } as const;
+  const joints = (q_rad: Float64Array) => ({
+    ...move,
+    path: "ptp" as const,
+    target: { q: Array.from(q_rad, q => q + 0.01) },
+    speed: { ratio: 0.5 },
+  });
+  return [
+    ["joints", (_, q_rad) => ({ ...joints(q_rad), id: "joints 1" })],
+    ["joints, softly", (_, q_rad) => ({ ...joints(q_rad), id: "soft 1", acceleration: { ratio: 0.5 } })],
+    ["line", here => ({ ...move, id: "line 1", path: "lin", target: beside(here, 0.01, 0) })],
+    [
+      "line, softly",
+      here => ({ ...move, id: "line 2", path: "lin", target: beside(here, 0.01, 0), acceleration: { ratio: 0.5 } }),
+    ],
+    [
+      "arc",
+      here => ({ ...move, id: "arc 1", path: "circ", via: beside(here, 0.01, 0.01), target: beside(here, 0.02, 0) }),
+    ],
+    ["spline", here => ({ ...move, id: "spline 1", path: "spline", target: beside(here, 0.01, 0) })],
+    [
+      "search",
+      here => ({
+        ...move,
+        id: "search 1",
+        path: "lin",
+        target: beside(here, 0.01, 0),
+        until: { when: { signal: "touch", is: true }, missing: "continue" },
+      }),
+    ],
+    ["gripper", () => ({ id: "gripper 1", type: "gripper", closed: true })],
+    ["line out", () => ({ id: "set 1", type: "set", signal: "no such line", to: true })],
+    ["payload", () => ({ id: "load 1", type: "payload", mass_kg: 1, center_m: [0, 0, 0.05] })],
+  ];
+})();
 
 /** One suite for every controller: rows T-01 … T-18. */
 export function describeController(name: string, contract: Contract): void {
@@ -378,6 +424,41 @@ export function describeController(name: string, contract: Contract): void {
         expect((await controller.moveJoints(wrong)).kind).toBe("refused");
       await scheduler.elapse(0.2);
       expectAngles(controller, before);
+    });
+
+    row("what a connection cannot say is told before the first motion, with the step and the way out", async () => {
+      for (const [what, make] of ORDERS) {
+        const motions: ArrayLike<number>[] = [];
+        const { controller, scheduler, carryOut } = await bench({
+          start_rad: at(0.55),
+          onMotion: q_rad => motions.push(q_rad),
+        });
+        const step = make(flangePose(robot.arm, at(0.55)), at(0.55));
+        const why = controller.cannotCarryOut(step);
+        if (why === null) {
+          const { outcome } = await carryOut(controller.run([step], { tools: {}, frames: {} }));
+          expect([what, outcome]).toEqual([what, { kind: "done" }]);
+        } else {
+          const first: Step = {
+            id: "first",
+            type: "move",
+            path: "ptp",
+            target: { q: [...at(0.6)] },
+            speed: { ratio: 1 },
+            blend_m: 0,
+          };
+          expect(controller.cannotCarryOut(first)).toBeNull();
+          const run = controller.run([first, step], { tools: {}, frames: {} });
+          await scheduler.elapse(1);
+          expect(await run, what).toMatchObject({
+            kind: "refused",
+            why: { sentence: expect.stringContaining(`“${step.id}”`), hint: expect.stringMatching(/^[A-Z].*\.$/) },
+          });
+          expect(motions, what).toEqual([]);
+          expectAngles(controller, at(0.55));
+        }
+        controller.close();
+      }
     });
 
     row("T-16 a robot that is only data can be driven", async () => {

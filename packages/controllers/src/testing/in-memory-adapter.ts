@@ -1,5 +1,5 @@
-import type { CommandOutcome, JointSample, Pose, Robot, Scheduler, Step } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../driver/index.ts";
+import type { CommandOutcome, JointSample, Robot, Scheduler } from "@twincell/core";
+import { stepOfMotion, type ControllerAdapter, type AdapterEvents, type Opened } from "../driver/index.ts";
 import { createVirtualController, type VirtualController, type VirtualOptions } from "../virtual/index.ts";
 
 export interface InMemoryAdapter extends ControllerAdapter {
@@ -33,21 +33,6 @@ export function inMemoryAdapter(
     last = { ...sample, q_rad: sample.q_rad.slice() };
     if (live && !silent) listening.at(-1)!.sample(sample);
   });
-  const step = (motion: AdapterMotion): Step => {
-    const base = { id: "motion", type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-    if (motion.path === "joints")
-      return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
-    // The base is the world here, and the flange its tool.
-    const pose = (baseFromFlange: Pose<"base", "flange">) => ({
-      pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
-      frame: "world",
-      tool: "flange",
-    });
-    const speed = { mps: motion.speed_mps };
-    return motion.path === "line"
-      ? { ...base, path: "lin", target: pose(motion.baseFromFlange), speed }
-      : { ...base, path: "circ", target: pose(motion.baseFromFlange), via: pose(motion.baseFromVia), speed };
-  };
   return {
     brand: "Near",
     robot,
@@ -78,7 +63,8 @@ export function inMemoryAdapter(
     close() {
       live = false;
     },
-    move: (motion): Promise<CommandOutcome> => virtual.run([step(motion)], { tools: {}, frames: {} }),
+    cannotSay: () => null,
+    move: (motion): Promise<CommandOutcome> => virtual.run([stepOfMotion(motion)], { tools: {}, frames: {} }),
     stop(emergency) {
       virtual.stop(emergency);
     },

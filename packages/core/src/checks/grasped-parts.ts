@@ -1,4 +1,4 @@
-import { robotAndCell, TOUCH_M, type CellCollider, type SolidPair } from "../collision/cell-collider.ts";
+import { keptApart, TOUCH_M, type CellCollider, type SolidPair } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
 import { flangePose } from "../kinematics/forward.ts";
 import { PARALLEL_GRIPPER } from "../physical/scene.ts";
@@ -302,7 +302,7 @@ export class GraspedParts {
             from,
             to,
             watched: pair => !joins(pair, id, may),
-            keepsMargin: pair => robotAndCell(pair) && !joins(pair, id, lies),
+            keepsMargin: pair => keptApart(pair) && !joins(pair, id, lies),
           };
         }),
       );
@@ -334,7 +334,7 @@ const wholeOf = ({ duration_s }: Segment): Stretch => ({
   from: 0,
   to: duration_s,
   watched: ALL,
-  keepsMargin: robotAndCell,
+  keepsMargin: keptApart,
 });
 
 /** Whether the pair is this part and one of those objects. */

@@ -44,6 +44,24 @@ export const PENDANT_UNITS: ExpressionWords["scale"] = {
   "rad/s": 180 / Math.PI,
 };
 
+/** The signs of a BASIC. */
+export const BASIC_SIGNS: ExpressionWords["signs"] = {
+  and: " AND ",
+  or: " OR ",
+  "=": "=",
+  "<>": "<>",
+  "<": "<",
+  "<=": "<=",
+  ">": ">",
+  ">=": ">=",
+  "+": "+",
+  "-": "-",
+  "*": "*",
+  "/": "/",
+  div: " DIV ",
+  mod: " MOD ",
+};
+
 /** The first value of a variable as its declaration says it. */
 export function initialText(variable: Variable, words: ExpressionWords): string {
   const value = initialOf(variable);

@@ -1,14 +1,12 @@
 import {
+  branchOf,
   compose,
-  degrees,
   distance,
-  explainReach,
   flangeOfTcp,
   flangePose,
   identity,
   inverse,
   palletSlots,
-  solveAll,
   type MoveStep,
   type Pose,
   type Program,
@@ -16,7 +14,8 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { UnsupportedStep, called } from "./cannot.ts";
+import { UnsupportedStep, type Cannot } from "./cannot.ts";
+import { flangeReached, numberedJoint, otherArm, outsideLimits } from "./posture.ts";
 
 export type PoseTarget = Extract<Target, { readonly pose: unknown }>;
 
@@ -55,6 +54,28 @@ export class Place {
     return compose(this.baseFromWorld, compose(this.frame(target.frame), target.pose));
   }
 
+  /** The world of the controller as it sees a frame of the program: the world itself, or the frame. */
+  vendorFromFrame(name: string): Pose<"frame", "frame"> {
+    if (name !== "world") return identity();
+    const vendorFromBase = inverse(this.robot.baseFromVendorWorld as Pose as Pose<"base", "base">);
+    return compose(
+      compose(identity<"frame", "base">(), compose(vendorFromBase, this.baseFromWorld)),
+      identity<"world", "frame">(),
+    );
+  }
+
+  /** Off a joint move only the tool's pose is written: of taught angles the posture is kept. */
+  asPose(target: Target): Target {
+    const branch = "q" in target ? branchOf(this.robot, target.q) : undefined;
+    if (!("q" in target) || branch === undefined) return target;
+    return {
+      pose: compose(compose(identity<"frame", "world">(), this.worldFromBase), this.tip(target)),
+      frame: "world",
+      tool: target.tool ?? "flange",
+      branch,
+    };
+  }
+
   /** The pose of a target in a frame that is not its own. */
   seenIn(frame: string, { pose, frame: own }: PoseTarget): Pose<"frame", "tcp"> {
     return compose(inverse(this.frame(frame)), compose(this.frame(own), pose)) as Pose as Pose<"frame", "tcp">;
@@ -72,50 +93,19 @@ export class Place {
     near: readonly number[] | undefined,
   ): readonly number[] | undefined {
     const { robot } = this;
-    const name = called(step);
     if ("q" in target) {
-      if (target.q.length !== robot.arm.joints.length) {
-        throw new UnsupportedStep(
-          step.id,
-          `${name} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`,
-          "Teach the step again on this robot.",
-        );
-      }
-      this.insideLimits(step, target.q);
+      refuse(otherArm(robot, step, target.q) ?? outsideLimits(robot, step, target.q, numberedJoint));
       return target.q;
     }
-    const reach = solveAll(
-      robot,
-      flangeOfTcp(this.worldFromBase, compose(this.worldFromBase, this.tip(target)), this.tool(target.tool)),
-      {
-        ...(near === undefined ? {} : { near }),
-        ...(target.branch === undefined ? {} : { branch: target.branch }),
-      },
+    const baseFromFlange = flangeOfTcp(
+      this.worldFromBase,
+      compose(this.worldFromBase, this.tip(target)),
+      this.tool(target.tool),
     );
+    const reach = flangeReached(robot, step, baseFromFlange, near, target.branch);
     if (reach.kind === "no-solver") return undefined;
-    if (reach.kind !== "reached")
-      throw new UnsupportedStep(
-        step.id,
-        `${name} cannot be reached. ${explainReach(reach)}`,
-        "Check the program: it says what would bring the step into reach.",
-      );
-    return [...reach.solutions[0]!.q_rad];
-  }
-
-  private insideLimits(step: Pick<Step, "id" | "name">, q: readonly number[]): void {
-    for (const [
-      i,
-      {
-        limits: { lower_rad, upper_rad },
-      },
-    ] of this.robot.arm.joints.entries()) {
-      if (q[i]! >= lower_rad - LIMIT_SLACK_RAD && q[i]! <= upper_rad + LIMIT_SLACK_RAD) continue;
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} turns joint ${i + 1} to ${degrees(q[i]!).toFixed(2)}°; it may turn from ${degrees(lower_rad).toFixed(1)}° to ${degrees(upper_rad).toFixed(1)}°.`,
-        "Move the point, or choose another branch for it.",
-      );
-    }
+    if (reach.kind === "cannot") return refuse(reach);
+    return Array.from(reach.q_rad);
   }
 
   /**
@@ -135,4 +125,9 @@ export class Place {
     return (ratio * Math.min(...ways)) / 2;
   }
 }
-const LIMIT_SLACK_RAD = 1e-9;
+
+function refuse(answer: Cannot): never;
+function refuse(answer: Cannot | undefined): undefined;
+function refuse(answer: Cannot | undefined): undefined {
+  if (answer !== undefined) throw new UnsupportedStep(answer.step, answer.sentence, answer.hint);
+}

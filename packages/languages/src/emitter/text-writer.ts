@@ -1,10 +1,14 @@
 import type { EmittedFile } from "@twincell/core";
 
+/** Most controllers end lines with CR LF. */
+const LINE_END = "\r\n";
+
 /** Collects lines together with the step that each came from, indented by blocks. */
 export class BlockWriter {
   private readonly lines: string[] = [];
   private readonly steps: string[] = [];
-  private depth = 0;
+  /** Blocks that are open. */
+  depth = 0;
 
   add(line: string, step = ""): void {
     this.lines.push(line === "" ? "" : "  ".repeat(this.depth) + line);
@@ -32,8 +36,12 @@ export class BlockWriter {
     for (const [i, line] of other.lines.entries()) this.add(line, other.steps[i] ?? "");
   }
 
-  file(name: string, lineEnd: string): EmittedFile {
+  file(name: string, lineEnd = LINE_END): EmittedFile {
     return { name, text: this.lines.map(line => line + lineEnd).join(""), lines: this.steps };
+  }
+
+  get count(): number {
+    return this.lines.length;
   }
 
   /** Number and length of the longest line, from 1. */

@@ -1,14 +1,13 @@
 import {
   branchOf,
   compose,
-  degrees,
-  explainReach,
+  distance,
   flangeOfTcp,
   flangePose,
   identity,
   inverse,
+  isPassedOver,
   palletSlots,
-  solveAll,
   type MoveStep,
   type Pose,
   type Program,
@@ -16,9 +15,9 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { called, type Cannot } from "./cannot.ts";
+import type { Cannot } from "./cannot.ts";
+import { flangeReached, otherArm, type Reached } from "./posture.ts";
 
-const LIMIT_SLACK_RAD = 1e-9;
 /** A pallet is looked at at every place up to this many. */
 const MOST_PLACES = 400;
 
@@ -75,10 +74,7 @@ const SAME_RAD = 1e-6;
  */
 export function walkMoves(
   place: WalkedPlace,
-  visit: (
-    step: MoveStep,
-    near: ArrayLike<number>,
-  ) => { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot,
+  visit: (step: MoveStep, near: ArrayLike<number>) => Reached | Cannot,
 ): Cannot | undefined {
   const { program, robot } = place;
   const { routines, pallets } = program;
@@ -172,22 +168,10 @@ function distinct(starts: Starts): Starts {
  * The joint angles in which a target of a step is reached from `near`: those that were taught on a joint move,
  * otherwise those of least travel.
  */
-export function reached(
-  place: WalkedPlace,
-  step: MoveStep,
-  target: Target,
-  near: ArrayLike<number>,
-): { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot {
+export function reached(place: WalkedPlace, step: MoveStep, target: Target, near: ArrayLike<number>): Reached | Cannot {
   const { robot, worldFromBase } = place;
-  const count = robot.arm.joints.length;
-  if ("q" in target && target.q.length !== count) {
-    return {
-      kind: "cannot",
-      step: step.id,
-      sentence: `${called(step)} holds ${target.q.length} joint angles; the ${robot.name} has ${count} joints.`,
-      hint: "Teach the step again on this robot.",
-    };
-  }
+  const other = "q" in target ? otherArm(robot, step, target.q) : undefined;
+  if (other !== undefined) return other;
   if ("q" in target && step.path === "ptp") return { kind: "reached", q_rad: target.q };
   // Along a path the axes arrive in the turn that is nearest, whatever angles were taught.
   const baseFromFlange =
@@ -195,34 +179,47 @@ export function reached(
       ? flangePose(robot.arm, target.q)
       : flangeOfTcp(worldFromBase, place.worldFromTarget(target, target.tool), place.tool(target.tool));
   const branch = "q" in target ? branchOf(robot, target.q) : target.branch;
-  const reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
-  if (reach.kind === "reached") return { kind: "reached", q_rad: reach.solutions[0]!.q_rad };
-  return {
-    kind: "cannot",
-    step: step.id,
-    sentence: `${called(step)} cannot be reached. ${explainReach(reach)}`,
-    hint: "Check the program: it says what would bring the step into reach.",
-  };
+  const reach = flangeReached(robot, step, baseFromFlange, near, branch);
+  return reach.kind === "no-solver" ? reach.answer : reach;
 }
 
-/** @param axisName  what the controller calls its axes, counted from 0. */
-export function outsideLimits(
-  { robot }: WalkedPlace,
-  step: MoveStep,
-  q_rad: ArrayLike<number>,
-  axisName: (axis: number) => string,
-): Cannot | undefined {
-  const { joints } = robot.arm;
-  const i = joints.findIndex(
-    ({ limits }, k) =>
-      !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD),
-  );
-  if (i < 0) return undefined;
-  const { lower_rad, upper_rad } = joints[i]!.limits;
-  return {
-    kind: "cannot",
-    step: step.id,
-    sentence: `${called(step)} turns axis ${axisName(i)} to ${degrees(q_rad[i]!).toFixed(2)}°; it may turn from ${degrees(lower_rad).toFixed(1)}° to ${degrees(upper_rad).toFixed(1)}°.`,
-    hint: "Move the point, or choose another branch for it.",
-  };
+/**
+ * Whether the robot goes from a motion into what follows without a stop.
+ *
+ * @param isMain  whether nothing follows the end of the list.
+ */
+export function goesOn(place: WalkedPlace, next: Step | undefined, isMain: boolean): boolean {
+  const into = (steps: readonly Step[] | undefined): boolean =>
+    goesOn(
+      place,
+      steps?.find(each => !isPassedOver(each)),
+      isMain,
+    );
+  switch (next?.type) {
+    case undefined:
+      return !isMain;
+    case "move":
+      return true;
+    case "repeat":
+    case "pallet":
+      return into(next.steps);
+    case "call":
+      return into(place.program.routines[next.routine]);
+    default:
+      return false;
+  }
+}
+
+/**
+ * Where the corner of a path begins [m]. A share is turned into a distance by the chords to the points before and
+ * behind.
+ */
+export function corner_m(place: WalkedPlace, step: MoveStep, before: Step | undefined, next: Step | undefined): number {
+  const { blend_m, blend_ratio = 0 } = step;
+  if (!(blend_ratio > 0)) return blend_m;
+  const at = (each: MoveStep) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
+  const chords: number[] = [];
+  if (before?.type === "move") chords.push(distance(at(before), at(step)));
+  if (next?.type === "move") chords.push(distance(at(step), at(next)));
+  return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
 }

@@ -1,23 +1,33 @@
 import {
-  capabilitiesOf,
   everyStep,
-  lowered,
   type Capability,
   type Dialect,
   type Emitted,
   type MoveStep,
-  type Pose,
   type Program,
   type Robot,
   type Step,
-  sectionForLanguage,
   type VendorSection,
 } from "@twincell/core";
 import type { PulseData } from "./pulses.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { INFORM_LINES, WalkedPlace, inParts, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
+import {
+  INFORM_LINES,
+  WalkedPlace,
+  arcWithoutVia,
+  called,
+  counted,
+  firstFlaw,
+  inParts,
+  lacking,
+  tellsRobot,
+  unresolved,
+  wholeEmitterOf,
+  type Cannot,
+  type NumberedLines,
+} from "../emitter/index.ts";
 import { configurationsOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 
@@ -48,7 +58,7 @@ const MOST_POSITIONS = 9999;
 /** Steps of a part: an arc has three positions. */
 const MOST_STEPS = 3000;
 
-type Refusal = Extract<Emitted, { kind: "cannot" }>;
+const LINES: NumberedLines = { language: "INFORM", ranges: INFORM_LINES, counting: "IN# and OT# count from 1" };
 
 /**
  * Jobs (.JBI), the main job first, with the tools and user frames whose numbers they mean; or the step that stands in
@@ -56,48 +66,27 @@ type Refusal = Extract<Emitted, { kind: "cannot" }>;
  *
  * @param pulses  write positions in pulses, by these numbers of the controller; left out, in X, Y, Z.
  */
-export const emitInform = (
-  program: Program,
-  robot: Robot,
-  worldFromBase: Pose<"world", "base">,
-  pulses: PulseData | undefined,
-): Emitted => writtenOr(() => jobs(program, robot, worldFromBase, pulses));
+export const emitInform = (pulses: PulseData | undefined): Dialect["emit"] =>
+  wholeEmitterOf({
+    id: "inform",
+    cannot: CANNOT,
+    idioms: IDIOMS,
+    strange: robot => `How INFORM counts the axes of the ${robot.name} is not known.`,
+    write: ({ place, section }) => jobs(place, section, pulses),
+  });
 
-function jobs(
-  taught: Program,
-  robot: Robot,
-  worldFromBase: Pose<"world", "base">,
-  pulses: PulseData | undefined,
-): Emitted {
-  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const convention = sectionForLanguage(robot, "inform");
-  if (convention === undefined) {
-    return {
-      kind: "cannot",
-      step: "",
-      sentence: `How INFORM counts the axes of the ${robot.name} is not known.`,
-      hint: "Export in the language of this robot's own controller.",
-    };
-  }
-  if (
-    pulses !== undefined &&
-    (pulses.pulsesPerDegree.length !== robot.arm.joints.length ||
-      !pulses.pulsesPerDegree.every(value => Number.isFinite(value) && value !== 0))
-  ) {
-    return {
-      kind: "cannot",
-      step: "",
-      sentence: `${pulses.pulsesPerDegree.length} pulse ratios are given; the ${robot.name} has ${robot.arm.joints.length} axes, and no ratio is 0.`,
-      hint: "Take the pulses per degree of every axis from the controller's parameter file.",
-    };
-  }
+function jobs(place: WalkedPlace, convention: VendorSection, pulses: PulseData | undefined): Emitted {
+  const { program, robot, worldFromBase } = place;
   const steps = [...everyStep(program)];
-  const refusal = refused(steps) ?? unresolved(program, steps, pulses);
+  const refusal =
+    strangePulses(robot, pulses) ??
+    firstFlaw(steps, refused) ??
+    firstFlaw(steps, step => unresolved(program, step, LINES) ?? palletInPulses(step, pulses));
   if (refusal !== undefined) return refusal;
-  const whole = written(program, robot, worldFromBase, convention, pulses);
+  const whole = written(place, convention, pulses);
   if (whole.kind !== "too-long") return whole;
   const parts = inParts(program, MOST_STEPS);
-  const again = written(parts, robot, worldFromBase, convention, pulses);
+  const again = written(new WalkedPlace(parts, robot, worldFromBase), convention, pulses);
   if (again.kind === "too-long")
     return { kind: "cannot", step: "", sentence: again.sentence, hint: "Put parts of it into routines of their own." };
   return again.kind === "cannot"
@@ -111,15 +100,28 @@ function jobs(
       };
 }
 
+function strangePulses(robot: Robot, pulses: PulseData | undefined): Cannot | undefined {
+  if (
+    pulses === undefined ||
+    (pulses.pulsesPerDegree.length === robot.arm.joints.length &&
+      pulses.pulsesPerDegree.every(value => Number.isFinite(value) && value !== 0))
+  )
+    return undefined;
+  return {
+    kind: "cannot",
+    step: "",
+    sentence: `${pulses.pulsesPerDegree.length} pulse ratios are given; the ${robot.name} has ${robot.arm.joints.length} axes, and no ratio is 0.`,
+    hint: "Take the pulses per degree of every axis from the controller's parameter file.",
+  };
+}
+
 function written(
-  program: Program,
-  robot: Robot,
-  worldFromBase: Pose<"world", "base">,
+  place: WalkedPlace,
   convention: VendorSection,
   pulses: PulseData | undefined,
 ): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
+  const { program, robot } = place;
   const steps = [...everyStep(program)];
-  const place = new WalkedPlace(program, robot, worldFromBase);
   const configurations = configurationsOf(place, convention, pulses !== undefined);
   if (configurations.kind === "cannot") return configurations;
 
@@ -152,108 +154,36 @@ function written(
   };
 }
 
-function refused(steps: readonly Step[]): Refusal | undefined {
-  for (const step of steps) {
-    const called = `Step ${step.name ?? step.id}`;
-    for (const capability of capabilitiesOf(step)) {
-      const why = CANNOT.find(({ what }) => what === capability);
-      if (why !== undefined)
-        return {
-          kind: "cannot",
-          step: step.id,
-          sentence: `${called} asks for what INFORM lacks. ${why.because}`,
-          hint: HINTS[capability]!,
-        };
-    }
-    if (step.type === "wait" && step.s > LONGEST_WAIT_S)
-      return {
-        kind: "cannot",
-        step: step.id,
-        sentence: `${called} waits ${step.s} s; TIMER ends at ${LONGEST_WAIT_S} s.`,
-        hint: "Wait several times.",
-      };
-    if (step.type === "set" && step.pulse_s !== undefined && step.to === false)
-      return {
-        kind: "cannot",
-        step: step.id,
-        sentence: `${called} is a pulse that takes an output off; PULSE of INFORM puts it on.`,
-        hint: "Write two steps with a wait between them.",
-      };
-    if (step.type === "move" && step.path === "circ" && step.via === undefined)
-      return {
-        kind: "cannot",
-        step: step.id,
-        sentence: `${called} is an arc without a point to pass through.`,
-        hint: "Teach the point in the middle of the arc.",
-      };
-  }
-  return undefined;
+/** Why INFORM has no instruction for a step. */
+function refused(step: Step): Cannot | undefined {
+  const lack = lacking(step, { language: "INFORM", cannot: CANNOT, hints: HINTS });
+  if (lack !== undefined) return lack;
+  if (step.type === "wait" && step.s > LONGEST_WAIT_S)
+    return {
+      kind: "cannot",
+      step: step.id,
+      sentence: `${called(step)} waits ${step.s} s; TIMER ends at ${LONGEST_WAIT_S} s.`,
+      hint: "Wait several times.",
+    };
+  if (step.type === "set" && step.pulse_s !== undefined && step.to === false)
+    return {
+      kind: "cannot",
+      step: step.id,
+      sentence: `${called(step)} is a pulse that takes an output off; PULSE of INFORM puts it on.`,
+      hint: "Write two steps with a wait between them.",
+    };
+  return arcWithoutVia(step);
 }
 
-/** Names that lead nowhere: a signal without an address, a routine or a pallet that is not there. */
-function unresolved(program: Program, steps: readonly Step[], pulses: PulseData | undefined): Refusal | undefined {
-  for (const step of steps) {
-    const called = `Step ${step.name ?? step.id}`;
-    for (const name of signalsOf(step)) {
-      const line = Object.hasOwn(program.signals, name) ? program.signals[name] : undefined;
-      if (line === undefined)
-        return {
-          kind: "cannot",
-          step: step.id,
-          sentence: `${called} uses the signal "${name}", which the program does not have.`,
-          hint: "Add the signal to the program.",
-        };
-      if (line.address === undefined)
-        return {
-          kind: "cannot",
-          step: step.id,
-          sentence: `${called} uses the signal "${name}", whose number on the controller is not given.`,
-          hint: "Give the signal the number of its line: IN# and OT# count from 1.",
-        };
-      const wrong = outOfRange("INFORM", INFORM_LINES, step, name, line);
-      if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
-    }
-    if (step.type === "call" && !Object.hasOwn(program.routines, step.routine))
-      return {
+const palletInPulses = (step: Step, pulses: PulseData | undefined): Cannot | undefined =>
+  step.type === "pallet" && pulses !== undefined
+    ? {
         kind: "cannot",
         step: step.id,
-        sentence: `${called} calls "${step.routine}", which the program does not have.`,
-        hint: "Add the routine to the program.",
-      };
-    if (step.type !== "pallet") continue;
-    if (!Object.hasOwn(program.pallets, step.pallet))
-      return {
-        kind: "cannot",
-        step: step.id,
-        sentence: `${called} uses the pallet "${step.pallet}", which the program does not have.`,
-        hint: "Add the pallet to the program.",
-      };
-    if (pulses !== undefined)
-      return {
-        kind: "cannot",
-        step: step.id,
-        sentence: `${called} is a pallet, whose places are shifts in X, Y, Z: positions in pulses are not shifted.`,
+        sentence: `${called(step)} is a pallet, whose places are shifts in X, Y, Z: positions in pulses are not shifted.`,
         hint: "Export with positions in X, Y, Z.",
-      };
-  }
-  return undefined;
-}
-
-function signalsOf(step: Step): string[] {
-  switch (step.type) {
-    case "set":
-      return [step.signal];
-    case "wait-for":
-    case "if":
-    case "while":
-    case "assign":
-      return [...linesLookedAt(step)];
-    case "move":
-      return step.until === undefined ? [] : [step.until.when.signal];
-    default:
-      return [];
-  }
-}
+      }
+    : undefined;
 
 function warnings(
   program: Program,
@@ -262,11 +192,9 @@ function warnings(
   pulses: PulseData | undefined,
   controller: Controller,
 ): string[] {
-  const said: string[] = [];
+  const said = tellsRobot(program, robot);
   const moves = steps.filter((step): step is MoveStep => step.type === "move");
   const max = robot.maxTcpSpeed_mps;
-  if (program.robot !== robot.id)
-    said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
   if (pulses?.source === "example")
     said.push(
       "The pulses per degree are an example for the virtual controller: on a real robot these positions are others.",
@@ -298,5 +226,3 @@ function warnings(
     );
   return said;
 }
-
-const counted = (count: number, one: string, more: string): string => `${count} ${count === 1 ? one : more}`;

@@ -80,7 +80,7 @@ export function informDialect({ examplePulses = false, positions = "rectan" }: I
           hint: "Take them from the parameter file (ALL.PRM) of its controller, or export positions in X, Y, Z.",
         };
       }
-      return emitInform(program, robot, worldFromBase, inPulses ? data : undefined);
+      return emitInform(inPulses ? data : undefined)(program, robot, worldFromBase);
     },
     parse: (text, robot, worldFromBase = identity()) => parseInform(text, robot, worldFromBase, of(robot)),
     interpret: (text, robot, worldFromBase = identity()) => interpretInform(text, robot, worldFromBase, of(robot)),

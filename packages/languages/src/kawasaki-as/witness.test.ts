@@ -2,9 +2,10 @@ import { flangePose, identity, pose, robotById, type Executed, type Robot, type 
 import { describe, expect, test } from "vitest";
 import { proveText } from "../prove.ts";
 import { randomProgram } from "../testing/programs.ts";
-import { about, sixOf, times, trans } from "./run/frame.ts";
+import { about, sixOf, trans } from "./run/frame.ts";
 import { kawasakiAs } from "./index.ts";
 import { readInTime } from "../testing/reading-time.ts";
+import { times } from "../parser/index.ts";
 
 const robot: Robot = robotById("kawasaki_rs007l")!;
 

@@ -6,8 +6,7 @@ import {
   type Robot,
   type TextForm,
 } from "@twincell/core";
-import { shownAxes } from "../emitter/index.ts";
-import { TextWriter } from "./write/text-writer.ts";
+import { BlockWriter, shownAxes } from "../emitter/index.ts";
 
 const AXES = 6;
 /** Significant digits of the published file. */
@@ -45,7 +44,7 @@ function emitPtpAxis(program: Program, robot: Robot): Emitted {
     step: Program["steps"][number],
   ): step is MoveStep & { readonly target: { readonly q: readonly number[] } } =>
     step.type === "move" && step.path === "ptp" && "q" in step.target;
-  const out = new TextWriter();
+  const out = new BlockWriter();
   out.add("DEF PTP_AXIS()");
   for (let axis = 1; axis <= AXES; axis++) out.add(`$VEL_AXIS[${axis}] = ${PERCENT}`);
   out.add("");

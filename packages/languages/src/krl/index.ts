@@ -27,7 +27,7 @@ export const krl: Dialect = skippingDialect({
   resolution: { ratio: 0.005, leastRatio: 0.01 },
   runnable: files => asOne(files),
   forms: [axisList],
-  emit: (program, robot, worldFromBase = identity()) => emitKrl(program, robot, worldFromBase),
+  emit: emitKrl,
   parse: (text, robot, worldFromBase = identity()) => parseKrl(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretKrl(text, robot, worldFromBase),
   lines: LINES,

@@ -1,19 +1,24 @@
 import {
   capabilitiesUsed,
   everyStep,
-  lowered,
   type Capability,
-  type Emitted,
   type MoveStep,
-  type Pose,
   type Program,
   type Robot,
   type Step,
-  sectionForLanguage,
 } from "@twincell/core";
-import { VPLUS_LINES, linesLookedAt, outOfRange, writtenOr } from "../emitter/index.ts";
+import {
+  VPLUS_LINES,
+  called,
+  counted,
+  linesLookedAt,
+  outOfRange,
+  tellsRobot,
+  wholeEmitterOf,
+  type Cannot,
+} from "../emitter/index.ts";
 import { MAX_POINTS, pointList } from "./write/point-list.ts";
-import { configurationsOf, type Place } from "./write/postures.ts";
+import { configurationsOf } from "./write/postures.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 /** What is written with other statements, as its programmers do. */
@@ -35,48 +40,44 @@ const MAX_TIMES = 2 ** 24;
 /**
  * The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program.
  */
-export function emitVPlus(taught: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const program = lowered(taught, { idioms: IDIOMS, cannot: CANNOT });
-  const convention = sectionForLanguage(robot, "v-plus");
-  if (convention === undefined) {
+export const emitVPlus = wholeEmitterOf({
+  id: "v-plus",
+  cannot: CANNOT,
+  idioms: IDIOMS,
+  strange: robot => `How V+ counts the joints of the ${robot.name} is not known.`,
+  write: ({ place, section }) => {
+    const { program, robot } = place;
+    const steps = [...everyStep(program)];
+    const moves = steps.filter((step): step is MoveStep => step.type === "move");
+    const refused = unspeakable(program, steps);
+    if (refused !== undefined) return refused;
+    if (moves.length > MAX_POINTS) {
+      return {
+        kind: "cannot",
+        step: moves[MAX_POINTS]!.id,
+        sentence: `The program has ${moves.length} points; the array of the point list ends after ${MAX_POINTS}.`,
+        hint: "Export it in parts.",
+      };
+    }
+    const configurations = configurationsOf(place);
+    if (configurations.kind === "cannot") return configurations;
     return {
-      kind: "cannot",
-      step: "",
-      sentence: `How V+ counts the joints of the ${robot.name} is not known.`,
-      hint: "Export in the language of this robot's own controller.",
+      kind: "emitted",
+      files: [
+        new ProgramWriter(place, section, configurations.q_rad).write(),
+        pointList(moves, configurations.q_rad, section),
+      ],
+      warnings: warnings(program, robot, moves),
     };
-  }
-  const steps = [...everyStep(program)];
-  const moves = steps.filter((step): step is MoveStep => step.type === "move");
-  const refused = unspeakable(program, steps);
-  if (refused !== undefined) return refused;
-  if (moves.length > MAX_POINTS) {
-    return {
-      kind: "cannot",
-      step: moves[MAX_POINTS]!.id,
-      sentence: `The program has ${moves.length} points; the array of the point list ends after ${MAX_POINTS}.`,
-      hint: "Export it in parts.",
-    };
-  }
-  const place: Place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
-  const configurations = configurationsOf(program, place);
-  if (configurations.kind === "cannot") return configurations;
-  return writtenOr(() => ({
-    kind: "emitted",
-    files: [
-      new ProgramWriter(program, place, convention, configurations.q_rad).write(),
-      pointList(moves, configurations.q_rad, convention),
-    ],
-    warnings: warnings(program, robot, moves),
-  }));
-}
+  },
+});
 
 /** The first step that V+ has no words for. */
-function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted, { kind: "cannot" }> | undefined {
-  const refuse = (step: Step, sentence: string, hint: string): Extract<Emitted, { kind: "cannot" }> => ({
+function unspeakable(program: Program, steps: readonly Step[]): Cannot | undefined {
+  const refuse = (step: Step, sentence: string, hint: string): Cannot => ({
     kind: "cannot",
     step: step.id,
-    sentence: `Step ${step.name ?? step.id} ${sentence}`,
+    sentence: `${called(step)} ${sentence}`,
     hint,
   });
   const used = capabilitiesUsed(program);
@@ -117,10 +118,8 @@ function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted,
 }
 
 function warnings(program: Program, robot: Robot, moves: readonly MoveStep[]): string[] {
-  const said: string[] = [];
+  const said = tellsRobot(program, robot);
   const blended = moves.filter(step => step.blend_m > 0 || (step.blend_ratio ?? 0) > 0);
-  if (program.robot !== robot.id)
-    said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
   if (blended.length > 0)
     said.push(
       `V+ has no blend radius: ${counted(blended.length, "step passes", "steps pass")} its point on a continuous path whose corner depends on the speed.`,
@@ -136,5 +135,3 @@ function warnings(program: Program, robot: Robot, moves: readonly MoveStep[]): s
     );
   return said;
 }
-
-const counted = (count: number, one: string, more: string): string => `${count} ${count === 1 ? one : more}`;

@@ -17,7 +17,7 @@ export const vPlus: Dialect = skippingDialect(
     idioms: IDIOMS,
     // TOOL is carried out when the motion before it has ended.
     resolution: { stopsAtNewTool: true },
-    emit: (program, robot, worldFromBase = identity()) => emitVPlus(program, robot, worldFromBase),
+    emit: emitVPlus,
     parse: (text, robot, worldFromBase = identity()) => parseVPlus(text, robot, worldFromBase),
     interpret: (text, robot, worldFromBase = identity()) => interpretVPlus(text, robot, worldFromBase),
     lines: LINES,

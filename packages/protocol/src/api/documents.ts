@@ -55,6 +55,10 @@ function operation(id: string, route: ApiRoute): Json {
       "400": failure("The request cannot be understood."),
       "404": failure("There is no such thing."),
       "409": failure("Refused or stopped, with the reason and the way out."),
+      ...(route.access === "command" || route.access === "write" ? { "503": failure("The server closes.") } : {}),
+      ...(route.access === "write" || route.access === "people"
+        ? { "507": failure("The disk of the server takes nothing: nothing was kept.") }
+        : {}),
     },
   };
 }

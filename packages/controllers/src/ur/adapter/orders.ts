@@ -47,6 +47,8 @@ const AT = {
   sliderMask: slotOf("speed_slider_mask"),
   slider: slotOf("speed_slider_fraction"),
 } as const;
+/** Whether the control box has an output of that name. */
+export const isOutput = (signal: string): boolean => /out$/.test(lineNumber(signal)?.kind ?? "");
 const WRAP = 1_000_000;
 
 /**
@@ -106,16 +108,19 @@ export class Orders {
     this.slots[AT.slider] = ratio;
   }
 
-  /** The group to send for that line; null when there is no such output. */
-  line(signal: string, value: boolean | number): number | null {
-    const line = lineNumber(signal);
+  /**
+   * The group to send for that line.
+   *
+   * @param signal  an output; see `isOutput`.
+   */
+  line(signal: string, value: boolean | number): number {
+    const line = lineNumber(signal)!;
     const { slots } = this;
-    if (line?.kind === "analogue-out") {
+    if (line.kind === "analogue-out") {
       slots[slotOf("standard_analog_output_mask")] = 1 << line.number;
       slots[slotOf(`standard_analog_output_${line.number}`)] = Number(value);
       return GROUPS.analogue;
     }
-    if (line?.kind !== "digital-out") return null;
     const group = line.number < 8 ? "standard" : line.number < 16 ? "configurable" : "tool";
     const bit = 1 << (line.number % 8);
     slots[slotOf(`${group}_digital_output_mask`)] = bit;

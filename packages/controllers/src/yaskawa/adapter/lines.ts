@@ -18,6 +18,8 @@ export interface LineTable {
   readonly groups: readonly number[];
   /** Starts the writing; `complain` is told when the controller refuses. */
   write(client: Client, signal: string, value: boolean | number, complain: (why: Refusal) => void): Refusal | null;
+  /** Why that line cannot be written; null when it can. */
+  cannotWrite(signal: string, value: boolean | number): Refusal | null;
   /** Keeps what a group was read as. */
   take(group: number, value: number): void;
   read(signal: string): boolean;
@@ -96,21 +98,30 @@ export function lineTable(
     values.set(group, value);
     for (const place of places) if (place.group === group) for (const name of place.names) changed(name, isOn(place));
   };
+  function cannotWrite(signal: string, value: boolean | number): Refusal | null {
+    const place = find(signal);
+    if (!place) return noLine(signal);
+    if (typeof value !== "boolean") return notDigital(signal);
+    const kind = ioGroupOf(place.group)?.name;
+    if (kind === "general output") return outputsFrom === undefined ? noLadder(signal, place.logical) : null;
+    return kind === "network input" ? null : notWritable(signal, place.logical);
+  }
   return {
     groups,
     take,
+    cannotWrite,
     read(signal) {
       const place = find(signal);
       return place !== undefined && isOn(place);
     },
     write(client, signal, value, complain) {
-      const place = find(signal);
-      if (!place) return noLine(signal);
-      if (typeof value !== "boolean") return notDigital(signal);
-      const kind = ioGroupOf(place.group)?.name;
-      if (kind === "general output" && outputsFrom === undefined) return noLadder(signal, place.logical);
-      if (kind !== "network input" && kind !== "general output") return notWritable(signal, place.logical);
-      const group = kind === "network input" ? place.group : Math.floor(outputsFrom! / 10) + place.group - GENERAL_OUT;
+      const why = cannotWrite(signal, value);
+      if (why) return why;
+      const place = find(signal)!;
+      const group =
+        ioGroupOf(place.group)?.name === "network input"
+          ? place.group
+          : Math.floor(outputsFrom! / 10) + place.group - GENERAL_OUT;
       watch(group);
       const was = values.get(group) ?? 0;
       const to = value ? was | (1 << place.bit) : was & ~(1 << place.bit);

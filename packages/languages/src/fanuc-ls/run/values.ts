@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed, finite } from "../../parser/index.ts";
 
 /** Joint angles [deg] as the pendant shows them. */
 export interface JointValue {
@@ -24,20 +24,7 @@ export function asNumber(value: Value, at: TextPlace): number {
 }
 
 export function binary(sign: string, left: Value, right: Value, at: TextPlace): Value {
-  if (typeof left === "boolean" && typeof right === "boolean") {
-    switch (sign) {
-      case "and":
-        return left && right;
-      case "or":
-        return left || right;
-      case "=":
-        return left === right;
-      case "<>":
-        return left !== right;
-      default:
-        throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
-    }
-  }
+  if (typeof left === "boolean" && typeof right === "boolean") return logic(sign, left, right, at);
   if (typeof left === "boolean" || typeof right === "boolean") {
     // ON is 1 beside a number.
     if (typeof left === "number" || typeof right === "number")
@@ -48,39 +35,24 @@ export function binary(sign: string, left: Value, right: Value, at: TextPlace): 
     return left.map((value, i) => (sign === "+" ? value + right[i]! : value - right[i]!));
   const a = asNumber(left, at);
   const b = asNumber(right, at);
-  if ((sign === "/" || sign === "div" || sign === "mod") && b === 0)
-    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
-  switch (sign) {
-    case "+":
-      return finite(a + b, at);
-    case "-":
-      return finite(a - b, at);
-    case "*":
-      return finite(a * b, at);
-    case "/":
-      return finite(a / b, at);
-    case "div":
-      return Math.trunc(a / b);
-    case "mod":
-      return a % b;
-    case "=":
-      return a === b;
-    case "<>":
-      return a !== b;
-    case "<":
-      return a < b;
-    case ">":
-      return a > b;
-    case "<=":
-      return a <= b;
-    case ">=":
-      return a >= b;
-    default:
-      throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
-  }
+  const value = compared(sign, a, b) ?? computed(sign, a, b, at);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+  return typeof value === "boolean" || sign === "div" || sign === "mod"
+    ? value
+    : finite(value, at, "The result is no number.");
 }
 
-function finite(value: number, at: TextPlace): number {
-  if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is no number.");
-  return value;
+function logic(sign: string, left: boolean, right: boolean, at: TextPlace): boolean {
+  switch (sign) {
+    case "and":
+      return left && right;
+    case "or":
+      return left || right;
+    case "=":
+      return left === right;
+    case "<>":
+      return left !== right;
+    default:
+      throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
+  }
 }

@@ -1,6 +1,6 @@
 import {
-  branchOf,
   compose,
+  cornerShare,
   everyStep,
   inverse,
   pose,
@@ -32,6 +32,9 @@ import {
   pitchTerm,
   type ExpressionWords,
   type Place,
+  BASIC_SIGNS,
+  lineKind,
+  checkSetting,
 } from "../../emitter/index.ts";
 import { GRIPPER_OUTPUT } from "../robots.ts";
 import { Listing } from "./listing.ts";
@@ -213,22 +216,7 @@ export class ProgramWriter extends StepWriter {
     truthVariable: name => `${this.registers.variable(name)}=1`,
     line: (signal, step, isDigital) => `${this.lineOf(signal, step).text}${isDigital ? "=ON" : ""}`,
     not: inner => `!${inner}`,
-    signs: {
-      and: " AND ",
-      or: " OR ",
-      "=": "=",
-      "<>": "<>",
-      "<": "<",
-      "<=": "<=",
-      ">": ">",
-      ">=": ">=",
-      "+": "+",
-      "-": "-",
-      "*": "*",
-      "/": "/",
-      div: " DIV ",
-      mod: " MOD ",
-    },
+    signs: BASIC_SIGNS,
     calls: {},
     scale: PENDANT_UNITS,
   };
@@ -249,19 +237,10 @@ export class ProgramWriter extends StepWriter {
    * taught points.
    */
   private pallet(step: PalletStep, add: (line: string) => void): void {
-    const { program, baseFromWorld, robot } = this.place;
+    const { program } = this.place;
     const { registers } = this;
     const { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
-    const vendorFromFrame: Pose<"frame", "frame"> =
-      pallet.frame === "world"
-        ? compose(
-            compose(
-              pose<"frame", "base">(),
-              compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld),
-            ),
-            pose<"world", "frame">(),
-          )
-        : pose();
+    const vendorFromFrame = this.place.vendorFromFrame(pallet.frame);
     const first = compose(vendorFromFrame, pallet.origin);
     const [along_m, away_m, up_m] = [pitch.along_m, pitch.away_m, pitch.up_m].map(v =>
       rotate(vendorFromFrame.quaternion, v),
@@ -300,14 +279,9 @@ export class ProgramWriter extends StepWriter {
   // --- lines ------------------------------------------------------------------------------------------------------
 
   private lineOf(signal: string, step: Step): { readonly text: string; readonly kind: SignalLine["kind"] } {
-    const { signals } = this.place.program;
-    if (!Object.hasOwn(signals, signal))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
-        "Add it to the list.",
-      );
-    const { kind, address } = signals[signal]!;
+    const { program } = this.place;
+    const kind = lineKind(program, signal, step);
+    const { address } = program.signals[signal]!;
     if (address === undefined && /^(RI|RO|UI|UO|SI|SO)\[[0-9]+\]$/.test(signal)) return { text: signal, kind };
     if (address === undefined)
       throw new UnsupportedStep(
@@ -323,18 +297,7 @@ export class ProgramWriter extends StepWriter {
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
     const { text, kind } = this.lineOf(step.signal, step);
     const { to } = step;
-    if (kind.endsWith("in"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes the line ${step.signal}, which is an input.`,
-        "Choose an output.",
-      );
-    if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
-        "Choose a value of that line.",
-      );
+    checkSetting(step, kind);
     if (typeof to === "number") return add(`${text}=${fixed(to, 6)}`);
     if (step.pulse_s === undefined) return add(`${text}=${to ? "ON" : "OFF"}`);
     if (!to)
@@ -392,7 +355,7 @@ export class ProgramWriter extends StepWriter {
     const { target, path, id } = step;
     const isAngles = path === "ptp" && "q" in target;
     const { registers } = this;
-    const configuration = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    const configuration = this.place.posture(step, isAngles ? target : this.place.asPose(target), this.near);
     this.near = configuration ?? this.near;
     const frame = "q" in target ? "world" : target.frame;
     const visit = this.visits.get(frame);
@@ -428,18 +391,6 @@ export class ProgramWriter extends StepWriter {
     if (search !== "" && step.until!.missing === "continue") this.out.add(`LBL[${/LBL\[(\d+)/.exec(search)![1]!}]`, id);
   }
 
-  /** Off a joint move only the tool's pose is written: of taught angles the posture is kept. */
-  private reached(target: Target): Target {
-    const branch = "q" in target ? branchOf(this.place.robot, target.q) : undefined;
-    if (!("q" in target) || branch === undefined) return target;
-    return {
-      pose: compose(compose(pose<"frame", "world">(), this.place.worldFromBase), this.place.tip(target)),
-      frame: "world",
-      tool: target.tool ?? "flange",
-      branch,
-    };
-  }
-
   /** A target as it is seen from the frame whose digits are written. */
   private inFrame(target: Target, frame: string): Pose<"frame", "tcp"> {
     const visit = this.visits.get(frame);
@@ -470,9 +421,8 @@ export class ProgramWriter extends StepWriter {
   private term(step: MoveStep, next: Step | undefined): string {
     const { blend_m, blend_ratio = 0 } = step;
     if (step.until !== undefined || next?.type !== "move" || !(blend_m > 0 || blend_ratio > 0)) return "FINE";
-    const whole_m = this.place.blend_m({ ...step, blend_m: 0, blend_ratio: 1 }, this.before, next);
-    const share = blend_ratio > 0 ? blend_ratio : whole_m > 0 ? blend_m / whole_m : 1;
-    return `CNT${Math.min(100, Math.max(1, Math.round(100 * share)))}`;
+    const half_m = this.place.blend_m({ ...step, blend_m: 0, blend_ratio: 1 }, this.before, next);
+    return `CNT${Math.round(100 * cornerShare(step, 2 * half_m))}`;
   }
 
   private search(step: MoveStep): string {

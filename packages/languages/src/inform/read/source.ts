@@ -1,5 +1,5 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError, plainText, textLines } from "../../parser/index.ts";
+import { TextError, plainText, LineReader } from "../../parser/index.ts";
 import { Cursor } from "./cursor.ts";
 import { JobBuilder } from "./job.ts";
 import { positionKey } from "./statement.ts";
@@ -9,8 +9,6 @@ export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-/** More faults than this help nobody. */
-const MOST_FAULTS = 50;
 const NUMBERS = /^-?[0-9]+(?:\.[0-9]*)?(?:,-?[0-9]+(?:\.[0-9]*)?)*$/;
 const TYPES: ReadonlySet<string> = new Set(["PULSE", "ANGLE", "BASE", "ROBOT", "TOOL", "USER"]);
 
@@ -20,22 +18,12 @@ const TYPES: ReadonlySet<string> = new Set(["PULSE", "ANGLE", "BASE", "ROBOT", "
  */
 export function readSource(text: string): SourceAnswer {
   const reader = new SourceReader();
-  const lines = textLines(text);
-  for (const [i, line] of lines.entries()) {
-    reader.guard(() => {
-      reader.line(line, i + 1);
-    });
-    if (reader.faults.length >= MOST_FAULTS) break;
-  }
-  reader.guard(() => {
-    reader.end(lines.length + 1);
-  });
-  if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
+  const wrong = reader.read(text);
+  if (wrong !== undefined) return wrong;
   return { kind: "source", source: { jobs: reader.jobs, tools: reader.tools, users: reader.users } };
 }
 
-class SourceReader {
-  readonly faults: TextFault[] = [];
+class SourceReader extends LineReader {
   readonly jobs = new Map<string, Job>();
   readonly tools = new Map<number, Frame>();
   readonly users = new Map<number, Frame>();
@@ -49,16 +37,7 @@ class SourceReader {
   private counted: { readonly at: TextPlace; readonly c: number; readonly p: number } | undefined;
   private frame: { number: number; name: string } | undefined;
 
-  guard(read: () => void): void {
-    try {
-      read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-    }
-  }
-
-  line(raw: string, line: number): void {
+  protected line(raw: string, line: number): void {
     const text = plainText(raw).trimEnd();
     const at = { line, column: 1 };
     if (text.trim() === "") return;
@@ -87,7 +66,7 @@ class SourceReader {
     }
   }
 
-  end(line: number): void {
+  protected end(line: number): void {
     if (
       this.section === "job" ||
       this.section === "positions" ||
@@ -140,6 +119,14 @@ class SourceReader {
       case "///TOOL":
         if (this.section !== "user") this.tool = this.numbers(rest, at)[0]!;
         return;
+      default:
+        return this.detail(word, rest, at);
+    }
+  }
+
+  /** What positions, tools and user frames are. */
+  private detail(word: string, rest: string, at: TextPlace): void {
+    switch (word) {
       case "///POSTYPE": {
         const type = rest.trim().toUpperCase();
         if (!TYPES.has(type))

@@ -1,5 +1,5 @@
 import type { Condition as Neutral, SignalLine, Signals, TextPlace } from "@twincell/core";
-import { TextError, type Notices } from "../../parser/index.ts";
+import { TextError, type Notices, compared } from "../../parser/index.ts";
 import type { Condition, Operand, Position, Wire } from "../read/syntax.ts";
 
 /** Least and greatest value of a variable, by its letter; R is a real. */
@@ -192,22 +192,9 @@ export class Memory {
   private compares({ left, sign, right }: Condition, at: TextPlace): boolean {
     const a = this.value(left);
     const b = right === "ON" ? 1 : right === "OFF" ? 0 : this.value(right);
-    switch (sign) {
-      case "=":
-        return a === b;
-      case "<>":
-        return a !== b;
-      case "<":
-        return a < b;
-      case ">":
-        return a > b;
-      case "<=":
-        return a <= b;
-      case ">=":
-        return a >= b;
-      default:
-        throw new TextError(at, "a comparison", "The condition compares nothing.");
-    }
+    const answer = compared(sign, a, b);
+    if (answer === undefined) throw new TextError(at, "a comparison", "The condition compares nothing.");
+    return answer;
   }
 
   /** What is waited for, when it is one line that is on or off. */

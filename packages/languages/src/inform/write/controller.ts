@@ -1,8 +1,7 @@
 import { compose, type EmittedFile, type Pose } from "@twincell/core";
 import { rectanText } from "./location.ts";
 import { titleText } from "./names.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
-import { TextWriter } from "./text-writer.ts";
+import { BlockWriter, type WalkedPlace } from "../../emitter/index.ts";
 
 /** Tools 0 … 63 and user frames 1 … 63; variables of a kind 0 … 99. */
 const LAST_FRAME = 63;
@@ -54,7 +53,7 @@ export class Controller {
   files(): EmittedFile[] {
     const files: EmittedFile[] = [];
     if (this.tools.size > 1) {
-      const out = new TextWriter();
+      const out = new BlockWriter();
       for (const [name, number] of this.tools) {
         if (number === 0) continue;
         out.add(`//TOOL ${number}`);
@@ -64,7 +63,7 @@ export class Controller {
       files.push(out.file("TOOL.CND"));
     }
     if (this.users.size > 0) {
-      const out = new TextWriter();
+      const out = new BlockWriter();
       for (const [name, number] of this.users) {
         out.add(`//UFRAME ${number}`);
         out.add(`///NAME ${titleText(name)}`);

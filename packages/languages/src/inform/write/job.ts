@@ -1,6 +1,5 @@
 import {
   compose,
-  distance,
   expressionOf,
   isCondition,
   isPassedOver,
@@ -22,13 +21,14 @@ import { commentText, titleText } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
 import { Computing } from "./computing.ts";
 import { Points, type Arrival } from "./points.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
+import { BlockWriter, corner_m, goesOn, type WalkedPlace } from "../../emitter/index.ts";
 import type { ConfigurationMap } from "./postures.ts";
 import { accelerationText, cornerText, speedText } from "./speed.ts";
-import { TextWriter } from "./text-writer.ts";
 
 /** Jobs carry a date; one that does not depend on when they were written. */
 const DATE = "2000/01/01 00:00";
+
+const WORDS: Readonly<Record<MoveStep["path"], string>> = { ptp: "MOVJ", lin: "MOVL", circ: "MOVC", spline: "MOVS" };
 
 export interface JobSetting {
   readonly place: WalkedPlace;
@@ -43,7 +43,7 @@ export interface JobSetting {
 /** One job: positions first, then the instructions. */
 export class JobWriter {
   private readonly setting: JobSetting;
-  private readonly out = new TextWriter();
+  private readonly out = new BlockWriter();
   private readonly points: Points;
   private readonly variables: string[] = [];
   private readonly pallets = new Map<string, PalletLoop>();
@@ -73,7 +73,7 @@ export class JobWriter {
 
   write(name: string, title: string, steps: readonly Step[]): EmittedFile {
     this.steps(steps, undefined);
-    const file = new TextWriter();
+    const file = new BlockWriter();
     const { points, variables, setting } = this;
     for (const variable of variables) points.variable(variable);
     file.add("/JOB");
@@ -259,38 +259,44 @@ export class JobWriter {
     };
     const { q_rad, via_rad } = configurations.get(step.id)!;
     const { target, frame, loop } = this.taught(step.target);
-    // Joint angles are reached with any tool; the one in force stays.
-    const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+    const tool = this.toolOf(step);
     this.shiftFor(loop, step.id);
     const speed = speedText(step, place.robot.maxTcpSpeed_mps);
     const acceleration = accelerationText(step);
-    const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0;
-    const corner = cornerText(step.path, corner_m);
-    if (
-      step.path === "circ" ||
-      (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))
-    ) {
-      const word = step.path === "circ" ? "MOVC" : "MOVS";
-      if (this.arrival !== undefined)
-        add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
-      else {
-        // Reached from several sides: the robot is asked where it stands.
-        this.here ??= this.setting.controller.variable("P");
-        add(`GETS PX${this.here.slice(1)} $PX000`);
-        add(`${word} ${this.here} ${speed} PL=0`);
-      }
-    }
+    const cornerBegin_m =
+      step.until === undefined && goesOn(place, next, this.isMain) ? corner_m(place, step, before, next) : 0;
+    const corner = cornerText(step.path, cornerBegin_m);
+    const isOnCurve = before?.type === "move" && before.path === "spline" && this.arrival !== undefined;
+    if (step.path === "circ" || (step.path === "spline" && !isOnCurve)) this.beginCurve(step, frame, tool, speed);
     if (step.path === "circ") {
       const via = this.taught(step.via!);
       add(`MOVC ${this.points.add(step, via.target, frame, tool, via_rad ?? q_rad).name} ${speed}`);
     }
     const { name, arrival } = this.points.add(step, target, frame, tool, q_rad);
-    const word = step.path === "ptp" ? "MOVJ" : step.path === "lin" ? "MOVL" : step.path === "circ" ? "MOVC" : "MOVS";
-    add(
-      `${word} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`,
-    );
+    const end = step.path === "circ" ? " FPT" : "";
+    add(`${WORDS[step.path]} ${name} ${speed}${corner}${acceleration}${end}${this.until(step)}`);
     if (step.until?.missing === "fault") add(`ABORT IF ${this.condition(step.until.when, true)}`);
     this.arrival = loop === undefined && step.until === undefined ? arrival : undefined;
+  }
+
+  /** Joint angles are reached with any tool; the one in force stays. */
+  private toolOf({ path, target }: MoveStep): string {
+    return target.tool ?? (path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+  }
+
+  private until({ until }: MoveStep): string {
+    return until === undefined ? "" : ` UNTIL ${this.condition(until.when)}`;
+  }
+
+  /** Arcs and curves begin with the point that the robot stands at. */
+  private beginCurve(step: MoveStep, frame: string, tool: string, speed: string): void {
+    const word = WORDS[step.path];
+    if (this.arrival !== undefined)
+      return this.out.add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`, step.id);
+    // Reached from several sides: the robot is asked where it stands.
+    this.here ??= this.setting.controller.variable("P");
+    this.out.add(`GETS PX${this.here.slice(1)} $PX000`, step.id);
+    this.out.add(`${word} ${this.here} ${speed} PL=0`, step.id);
   }
 
   /** A target as it is taught: at the first place, when it is on a pallet. */
@@ -328,35 +334,5 @@ export class JobWriter {
   private shiftOff(id: string): void {
     if (this.shift !== "") this.out.add("SFTOF", id);
     this.shift = "";
-  }
-
-  private goesOn(next: Step | undefined): boolean {
-    const inside = (steps: readonly Step[] | undefined): boolean =>
-      this.goesOn(steps?.find(each => !isPassedOver(each)));
-    switch (next?.type) {
-      case undefined:
-        return !this.isMain;
-      case "move":
-        return true;
-      case "repeat":
-      case "pallet":
-        return inside(next.steps);
-      case "call":
-        return inside(this.setting.place.program.routines[next.routine]);
-      default:
-        return false;
-    }
-  }
-
-  /** Where the corner begins. A share is turned into a distance by the chords to the points before and behind. */
-  private corner(step: MoveStep, before: Step | undefined, next: Step | undefined): number {
-    const { blend_m, blend_ratio = 0 } = step;
-    const { place } = this.setting;
-    if (!(blend_ratio > 0)) return blend_m;
-    const at = (each: MoveStep) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
-    const chords: number[] = [];
-    if (before?.type === "move") chords.push(distance(at(before), at(step)));
-    if (next?.type === "move") chords.push(distance(at(step), at(next)));
-    return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
   }
 }

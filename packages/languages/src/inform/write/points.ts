@@ -12,8 +12,7 @@ import {
 import type { PulseData } from "../pulses.ts";
 import type { Controller } from "./controller.ts";
 import { pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
-import { shownAxes, type WalkedPlace } from "../../emitter/index.ts";
-import { TextWriter } from "./text-writer.ts";
+import { BlockWriter, shownAxes, type WalkedPlace } from "../../emitter/index.ts";
 
 /** Where the robot is after a motion, as the text says it: what arcs and curves begin with once more. */
 export interface Arrival {
@@ -24,7 +23,7 @@ export interface Arrival {
 
 /** The positions of a job. Settings are written where they change. */
 export class Points {
-  readonly out = new TextWriter();
+  readonly out = new BlockWriter();
   count = 0;
   private readonly place: WalkedPlace;
   private readonly controller: Controller;

@@ -37,7 +37,7 @@ export function configurationsOf(place: WalkedPlace, convention: VendorSection, 
     if (via?.kind === "cannot") return via;
     const answer = reached(place, step, step.target, near);
     if (answer.kind === "cannot") return answer;
-    const outside = outsideLimits(place, step, answer.q_rad, axis => "SLURBT"[axis] ?? `${axis + 1}`);
+    const outside = outsideLimits(place.robot, step, answer.q_rad, axis => `axis ${"SLURBT"[axis] ?? axis + 1}`);
     if (outside !== undefined) return outside;
     const first = found.get(step.id)?.q_rad;
     if (first === undefined) found.set(step.id, { q_rad: answer.q_rad, via_rad: via?.q_rad });

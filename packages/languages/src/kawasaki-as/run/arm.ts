@@ -9,8 +9,8 @@ import {
   type Pose,
   type Robot,
 } from "@twincell/core";
-import { ShownAxes, armPoints } from "../../parser/index.ts";
-import { NULL, fromPose, inverted, times, toPose, type Matrix } from "./frame.ts";
+import { ShownAxes, armPoints, inverted, times, type Matrix } from "../../parser/index.ts";
+import { NULL, fromPose, toPose } from "./frame.ts";
 
 /** Words that name a posture of the next joint motion. */
 export interface Posture {

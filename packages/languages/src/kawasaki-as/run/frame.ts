@@ -1,10 +1,6 @@
 import { fromMatrix, type Pose } from "@twincell/core";
+import { rotationRows, type Matrix } from "../../parser/index.ts";
 
-/** A place as a matrix: nine numbers row by row, and the origin [mm]. */
-export interface Matrix {
-  readonly r: readonly number[];
-  readonly p: readonly [number, number, number];
-}
 export type Six = readonly [x: number, y: number, z: number, o: number, a: number, t: number];
 
 export const NULL: Matrix = { r: [1, 0, 0, 0, 1, 0, 0, 0, 1], p: [0, 0, 0] };
@@ -56,20 +52,6 @@ export function sixOf({ r, p }: Matrix): Six {
   return [...p, Math.atan2(r[5]!, r[2]!) / DEG, a, Math.atan2(r[7]!, -r[6]!) / DEG];
 }
 
-/** a·b */
-export function times(a: Matrix, b: Matrix): Matrix {
-  const r: number[] = [];
-  for (let i = 0; i < 9; i += 3)
-    for (let j = 0; j < 3; j++) r.push(a.r[i]! * b.r[j]! + a.r[i + 1]! * b.r[3 + j]! + a.r[i + 2]! * b.r[6 + j]!);
-  const along = (row: number): number => a.r[row]! * b.p[0] + a.r[row + 1]! * b.p[1] + a.r[row + 2]! * b.p[2];
-  return { r, p: [a.p[0] + along(0), a.p[1] + along(3), a.p[2] + along(6)] };
-}
-
-export function inverted({ r, p }: Matrix): Matrix {
-  const back = (column: number): number => -(r[column]! * p[0] + r[column + 3]! * p[1] + r[column + 6]! * p[2]);
-  return { r: [r[0]!, r[3]!, r[6]!, r[1]!, r[4]!, r[7]!, r[2]!, r[5]!, r[8]!], p: [back(0), back(1), back(2)] };
-}
-
 /** The same place moved along the axes that it is given in [mm]. */
 export const shifted = ({ r, p }: Matrix, x: number, y: number, z: number): Matrix => ({
   r,
@@ -106,14 +88,7 @@ export const toPose = <Into extends string = string, From extends string = strin
   p,
 }: Matrix): Pose<Into, From> => ({ position: [p[0] / MM, p[1] / MM, p[2] / MM], quaternion: fromMatrix(r) });
 
-export function fromPose({ position: [px, py, pz], quaternion: [x, y, z, w] }: Pose): Matrix {
-  return {
-    // biome-ignore format: table of numbers
-    r: [
-      1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
-      2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-      2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y),
-    ],
-    p: [px * MM, py * MM, pz * MM],
-  };
-}
+export const fromPose = ({ position: [x, y, z], quaternion }: Pose): Matrix => ({
+  r: rotationRows(quaternion),
+  p: [x * MM, y * MM, z * MM],
+});

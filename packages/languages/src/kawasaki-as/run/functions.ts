@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, finite } from "../../parser/index.ts";
 import { about, frameOf, shifted, sixOf, trans } from "./frame.ts";
-import { asNumber, asPlace, finite, kindOf, type Value } from "./values.ts";
+import { asNumber, asPlace, kindOf, type Value } from "./values.ts";
 
 type Entry = readonly [least: number, most: number, evaluate: (args: readonly Value[], at: TextPlace) => Value];
 const DEG = Math.PI / 180;

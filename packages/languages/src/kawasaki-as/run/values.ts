@@ -1,6 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
-import { inverted, times, type Matrix } from "./frame.ts";
+import { TextError, inverted, times, type Matrix, compared, computed, finite } from "../../parser/index.ts";
 
 /** A place, and where it was made of a variable and a place in it: the frame that a person meant. */
 export interface PlaceValue {
@@ -41,11 +40,6 @@ export function asPlace(value: Value, at: TextPlace): PlaceValue {
 
 export const truth = (value: boolean): number => (value ? -1 : 0);
 
-export function finite(value: number, at: TextPlace): number {
-  if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is not a number.");
-  return value;
-}
-
 /** `+` of transformations goes on from the left one; `-` goes back by the right one. */
 export function binary(sign: string, left: Value, right: Value, frame: string | undefined, at: TextPlace): Value {
   if (typeof left === "object" && left.kind === "place" && (sign === "+" || sign === "-")) {
@@ -73,42 +67,16 @@ export function binary(sign: string, left: Value, right: Value, frame: string | 
 }
 
 function arithmetic(sign: string, a: number, b: number, at: TextPlace): number {
-  if ((sign === "/" || sign === "mod") && b === 0)
-    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
   switch (sign) {
-    case "+":
-      return finite(a + b, at);
-    case "-":
-      return finite(a - b, at);
-    case "*":
-      return finite(a * b, at);
-    case "/":
-      return finite(a / b, at);
-    case "mod":
-      return a % b;
-    case "^":
-      return finite(a ** b, at);
-    case "==":
-      return truth(a === b);
-    case "<>":
-      return truth(a !== b);
-    case "<":
-      return truth(a < b);
-    case ">":
-      return truth(a > b);
-    case "<=":
-    case "=<":
-      return truth(a <= b);
-    case ">=":
-    case "=>":
-      return truth(a >= b);
     case "and":
       return truth(a !== 0 && b !== 0);
     case "or":
       return truth(a !== 0 || b !== 0);
     case "xor":
       return truth((a !== 0) !== (b !== 0));
-    default:
-      throw new TextError(at, "an operator", `"${sign}" is no operator.`);
   }
+  const value = compared(sign, a, b) ?? computed(sign, a, b, at);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+  if (typeof value === "boolean") return truth(value);
+  return sign === "mod" ? value : finite(value, at);
 }

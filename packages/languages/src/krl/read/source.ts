@@ -1,5 +1,5 @@
 import type { TextFault } from "@twincell/core";
-import { TextError, textLines } from "../../parser/index.ts";
+import { TextError, LineReader } from "../../parser/index.ts";
 import { RoutineBuilder } from "./blocks.ts";
 import { Cursor } from "./cursor.ts";
 import { readDeclarations, readHeader, readSignal } from "./declaration.ts";
@@ -10,8 +10,6 @@ export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-/** More faults than this help nobody. */
-const MOST_FAULTS = 50;
 const QUIET = /^\s*(?:;|$)/;
 /** Stands at the head of every file that the controller keeps. */
 const ATTRIBUTE = /^\s*&/;
@@ -26,22 +24,8 @@ const SHARED_LIST = "$CONFIG";
 export function readSource(text: string): SourceAnswer {
   const lists = Array.from(text.matchAll(/^[ \t]*DEFDAT[ \t]+([\w$]+)/gim), match => match[1]!.toUpperCase());
   const reader = new SourceReader(new Set(lists));
-  const lines = textLines(text);
-  for (const [i, line] of lines.entries()) {
-    if (QUIET.test(line)) continue;
-    if (ATTRIBUTE.test(line)) {
-      reader.attribute();
-      continue;
-    }
-    reader.guard(() => {
-      reader.line(line, i + 1);
-    });
-    if (reader.faults.length >= MOST_FAULTS) break;
-  }
-  reader.guard(() => {
-    reader.end(lines.length + 1);
-  });
-  if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
+  const wrong = reader.read(text);
+  if (wrong !== undefined) return wrong;
   const { modules, signals, main } = reader;
   const shared = new Map<string, Routine>();
   for (const module of modules.values())
@@ -67,8 +51,7 @@ const openModule = (name: string): OpenModule => ({
   shared: new Set(),
 });
 
-class SourceReader {
-  readonly faults: TextFault[] = [];
+class SourceReader extends LineReader {
   readonly modules = new Map<string, OpenModule>();
   readonly signals: SignalDeclaration[] = [];
   main: Routine | undefined;
@@ -82,11 +65,12 @@ class SourceReader {
 
   /** @param lists  names of the data lists of the text. */
   constructor(lists: ReadonlySet<string>) {
+    super();
     this.lists = lists;
   }
 
   /** An attribute line: a file begins. */
-  attribute(): void {
+  private attribute(): void {
     if (this.section === "outside") this.begins = true;
   }
 
@@ -98,18 +82,15 @@ class SourceReader {
     return made;
   }
 
-  guard(read: () => void): void {
-    try {
-      read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      // What is wrong in another file than that of the program matters where it is reached.
-      if (this.isElsewhere && this.current !== undefined) this.builder?.fault(cause);
-      else this.faults.push(cause.fault);
-    }
+  // What is wrong in another file than that of the program matters where it is reached.
+  protected override fault(cause: TextError): void {
+    if (this.isElsewhere && this.current !== undefined) this.builder?.fault(cause);
+    else super.fault(cause);
   }
 
-  line(text: string, line: number): void {
+  protected line(text: string, line: number): void {
+    if (QUIET.test(text)) return;
+    if (ATTRIBUTE.test(text)) return this.attribute();
     const cursor = new Cursor(text, line);
     if (cursor.done) return;
     const first = cursor.next === "GLOBAL" ? cursor.second : cursor.next;
@@ -122,6 +103,11 @@ class SourceReader {
       this.signals.push(readSignal(cursor));
       return;
     }
+    return this.content(cursor);
+  }
+
+  /** A line of a data list or of a routine. */
+  private content(cursor: Cursor): void {
     const declared = readDeclarations(cursor);
     if (declared !== undefined)
       (this.section === "data" ? this.current!.data : this.builder!.declarations).push(
@@ -141,7 +127,7 @@ class SourceReader {
     if (statement.kind === "assign") this.current!.elements.push(statement);
   }
 
-  end(line: number): void {
+  protected end(line: number): void {
     if (this.section === "outside") {
       if (this.modules.size === 0) throw new TextError({ line: 1, column: 1 }, "DEF", "The text has no routine.");
       return;

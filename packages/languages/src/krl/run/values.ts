@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed } from "../../parser/index.ts";
 import type { Expression, Variable } from "../read/syntax.ts";
 import { componentsOf, frameOf, inverted, times, type Frame } from "./frames.ts";
 
@@ -178,40 +178,31 @@ function binary(expression: Extract<Expression, { kind: "binary" }>, memory: Mem
       "two numbers",
       `"${sign}" joins numbers, not a ${KINDS[left.kind]} and a ${KINDS[right.kind]}.`,
     );
-  const a = left.value;
-  const b = right.value;
-  const result = (value: number): Value => (left.whole && right.whole ? whole(Math.trunc(value)) : real(value));
+  return joined(expression, left, right);
+}
+
+type NumberValue = Extract<Value, { kind: "number" }>;
+
+/** Whole numbers give whole ones. */
+function joined(
+  expression: Extract<Expression, { kind: "binary" }>,
+  { value: a, whole: isWhole }: NumberValue,
+  { value: b, whole: isAlso }: NumberValue,
+): Value {
+  const { sign } = expression;
   switch (sign) {
-    case "+":
-      return result(a + b);
-    case "-":
-      return result(a - b);
-    case "*":
-      return result(a * b);
-    case "/":
-      if (b === 0) throw new TextError(expression.right, "a divisor other than 0", "The divisor is 0.");
-      return result(a / b);
     case "B_AND":
       return whole(a & b);
     case "B_OR":
       return whole(a | b);
     case "B_EXOR":
       return whole(a ^ b);
-    case "==":
-      return bool(a === b);
-    case "<>":
-      return bool(a !== b);
-    case "<":
-      return bool(a < b);
-    case ">":
-      return bool(a > b);
-    case "<=":
-      return bool(a <= b);
-    case ">=":
-      return bool(a >= b);
-    default:
-      throw new TextError(expression, "an operator for numbers", `"${sign}" does not join numbers.`);
   }
+  const value = compared(sign, a, b) ?? computed(sign, a, b, expression.right);
+  if (value === undefined)
+    throw new TextError(expression, "an operator for numbers", `"${sign}" does not join numbers.`);
+  if (typeof value === "boolean") return bool(value);
+  return isWhole && isAlso ? whole(Math.trunc(value)) : real(value);
 }
 
 function logic(sign: string, a: boolean, b: boolean, at: TextPlace): boolean {

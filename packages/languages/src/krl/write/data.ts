@@ -1,7 +1,7 @@
 import type { EmittedFile, Pose, SignalLine, Variable } from "@twincell/core";
+import { BlockWriter } from "../../emitter/index.ts";
 import { frameText } from "./location.ts";
 import { krlName } from "./names.ts";
-import { TextWriter } from "./text-writer.ts";
 
 const GRIPPER = "GRIPPER";
 const WIRES: Readonly<Record<SignalLine["kind"], string>> = {
@@ -72,7 +72,7 @@ export class DataList {
   }
 
   file(name: string): EmittedFile {
-    const out = new TextWriter();
+    const out = new BlockWriter();
     out.add("&ACCESS RVP");
     out.add("&REL 1");
     out.add(`DEFDAT ${name}`);

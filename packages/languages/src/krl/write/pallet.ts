@@ -3,8 +3,7 @@ import { singleText } from "../../parser/index.ts";
 import type { DataList } from "./data.ts";
 import { frameText } from "./location.ts";
 import { krlName } from "./names.ts";
-import type { WalkedPlace } from "../../emitter/index.ts";
-import type { TextWriter } from "./text-writer.ts";
+import type { BlockWriter, WalkedPlace } from "../../emitter/index.ts";
 
 const AXES = ["X", "Y", "Z"] as const;
 
@@ -14,7 +13,7 @@ export class PalletLoop {
   readonly base: string;
   private readonly pallet: Pallet;
   private readonly step: string;
-  private readonly out: TextWriter;
+  private readonly out: BlockWriter;
   private readonly parent: string;
   private readonly origin: string;
   private readonly place: string;
@@ -24,7 +23,7 @@ export class PalletLoop {
   private readonly along: string;
   private readonly ends: string[] = [];
 
-  constructor({ id, pallet: name }: PalletStep, pallet: Pallet, out: TextWriter, data: DataList, place: WalkedPlace) {
+  constructor({ id, pallet: name }: PalletStep, pallet: Pallet, out: BlockWriter, data: DataList, place: WalkedPlace) {
     this.pallet = pallet;
     this.step = id;
     this.out = out;

@@ -24,7 +24,7 @@ export function configurationsOf(place: WalkedPlace, convention: VendorSection):
     const answer = reached(place, step, target, near);
     if (answer.kind === "cannot") return answer;
     const { q_rad } = answer;
-    const outside = outsideLimits(place, step, q_rad, axis => `${axis + 1}`);
+    const outside = outsideLimits(place.robot, step, q_rad, axis => `axis ${axis + 1}`);
     if (outside !== undefined) return outside;
     const branch = branchOf(robot, q_rad);
     const status = branch === undefined ? 0 : statusOf(branch, wristAboveZero(robot));

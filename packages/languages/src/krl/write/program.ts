@@ -1,6 +1,5 @@
 import {
   compose,
-  distance,
   inverse,
   isPassedOver,
   type Predicate,
@@ -21,10 +20,17 @@ import { principal } from "./inertia.ts";
 import { axisText, frameText, lengthText } from "./location.ts";
 import { commentText, krlName } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
-import { PENDANT_UNITS, expressionText, type ExpressionWords, type WalkedPlace } from "../../emitter/index.ts";
+import {
+  BlockWriter,
+  corner_m,
+  goesOn,
+  PENDANT_UNITS,
+  expressionText,
+  type ExpressionWords,
+  type WalkedPlace,
+} from "../../emitter/index.ts";
 import type { ConfigurationMap } from "./postures.ts";
 import { Settings } from "./settings.ts";
-import { TextWriter } from "./text-writer.ts";
 
 /** Interrupts of searches begin here; smaller numbers are the controller's and the cell's. */
 const FIRST_INTERRUPT = 21;
@@ -50,9 +56,9 @@ export class ModuleWriter {
   private readonly routineNames = new Map<string, string>();
   private readonly palletBases = new Map<string, string>();
   /** Routines of searches, behind the program. */
-  private readonly behind = new TextWriter();
+  private readonly behind = new BlockWriter();
   private readonly settings: Settings;
-  private out = new TextWriter();
+  private out = new BlockWriter();
   private group = "";
   private points = 0;
   private searches = 0;
@@ -83,7 +89,7 @@ export class ModuleWriter {
     out.add("END");
     this.isMain = false;
     for (const [name, steps] of Object.entries(program.routines)) this.routine(this.routineNames.get(name)!, steps);
-    out.append(this.behind.collected);
+    out.append(this.behind);
     return [out.file(`${this.name}.src`), this.data.file(this.name)];
   }
 
@@ -158,6 +164,23 @@ export class ModuleWriter {
         return add(`;* ${commentText(step.text)}`);
       case "assign":
         return add(`${this.words.variable(step.variable)}=${expressionText(step.to, this.words, this.program, step)}`);
+      default:
+        return this.flow(step, next);
+    }
+  }
+
+  /** What calls, repeats and decides. */
+  private flow(
+    step: Exclude<
+      Step,
+      { type: "move" | "wait" | "gripper" | "set" | "wait-for" | "payload" | "message" | "stop" | "comment" | "assign" }
+    >,
+    next: Step | undefined,
+  ): void {
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    switch (step.type) {
       case "call":
         add(`${this.routineNames.get(step.routine)!}( )`);
         return this.settings.forget();
@@ -165,7 +188,7 @@ export class ModuleWriter {
         const head =
           step.times === "forever"
             ? "LOOP"
-            : `FOR ${this.data.counter(`ROUND_${step.name ?? this.out.collected.lines.length}`)}=1 TO ${step.times}`;
+            : `FOR ${this.data.counter(`ROUND_${step.name ?? this.out.count}`)}=1 TO ${step.times}`;
         return this.block(
           step.id,
           head,
@@ -315,10 +338,10 @@ export class ModuleWriter {
     if (!("q" in step.target && step.path === "ptp")) this.frames(step.id, tool, base);
     else if (toolName(step) !== undefined) this.frames(step.id, tool, this.settings.base);
     for (const line of this.settings.pace(step)) add(line);
-    const goesOn = step.until === undefined && this.goesOn(next);
+    const isPassed = step.until === undefined && goesOn(this.place, next, this.isMain);
     const passing = this.settings.passing(
-      goesOn ? step : { ...step, blend_ratio: 0 },
-      goesOn ? this.blend(step, before, next) : 0,
+      isPassed ? step : { ...step, blend_ratio: 0 },
+      isPassed ? corner_m(this.place, step, before, next) : 0,
     );
     for (const line of passing.lines) add(line);
     const word = step.path === "ptp" ? "PTP" : step.path === "circ" ? "CIRC" : "LIN";
@@ -340,7 +363,7 @@ export class ModuleWriter {
     this.frames(first!.id, tool, base);
     const passing = this.settings.passing(
       { ...last, blend_ratio: 0 },
-      this.goesOn(next) ? this.blend(last, block.at(-2), next) : 0,
+      goesOn(this.place, next, this.isMain) ? corner_m(this.place, last, block.at(-2), next) : 0,
     );
     for (const line of passing.lines) this.out.add(line, last.id);
     this.title(first!);
@@ -444,34 +467,6 @@ export class ModuleWriter {
     behind.add("");
     for (const text of body) behind.add(text, step.id);
     // Wherever the search ended, what follows starts from there.
-  }
-
-  /** Whether the robot goes from a motion into what follows without a stop. */
-  private goesOn(next: Step | undefined): boolean {
-    switch (next?.type) {
-      case undefined:
-        return !this.isMain;
-      case "move":
-        return true;
-      case "repeat":
-      case "pallet":
-        return this.goesOn(next.steps.find(each => !isPassedOver(each)));
-      case "call":
-        return this.goesOn(this.program.routines[next.routine]?.find(each => !isPassedOver(each)));
-      default:
-        return false;
-    }
-  }
-
-  /** The distance at which a path is left. A share is turned into one by the chords to the points before and behind. */
-  private blend(step: MoveStep, before: Step | undefined, next: Step | undefined): number {
-    const { blend_m, blend_ratio = 0 } = step;
-    if (!(blend_ratio > 0)) return blend_m;
-    const at = (each: MoveStep) => this.place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
-    const chords: number[] = [];
-    if (before?.type === "move") chords.push(distance(at(before), at(step)));
-    if (next?.type === "move") chords.push(distance(at(step), at(next)));
-    return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
   }
 }
 

@@ -20,6 +20,20 @@ export interface ExpressionRules {
   readonly args: (cursor: TokenCursor, depth: number) => readonly Argument[];
 }
 
+const JOINING = { or: 1, and: 2 } as const;
+const COMPUTING = { "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6 } as const;
+/** Binding strength where values are compared as in C. */
+export const BINDS_AS_C: ExpressionRules["binary"] = { ...JOINING, xor: 1, "==": 4, "!=": 4, ...COMPUTING, "%": 6 };
+/** Binding strength where values are compared as in BASIC. */
+export const BINDS_AS_BASIC: ExpressionRules["binary"] = {
+  ...JOINING,
+  "=": 4,
+  "<>": 4,
+  ...COMPUTING,
+  div: 6,
+  mod: 6,
+};
+
 /** Brackets inside brackets: more than anybody writes, less than the stack holds. */
 const DEPTH = 40;
 

@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, finite } from "../../parser/index.ts";
 import { eulerZyx, inverted, orientZyx, times, turned } from "./frame.ts";
-import { asFrame, asNumber, asOrient, asPosition, asRecord, finite, fromFrame, type Value } from "./values.ts";
+import { asFrame, asNumber, asOrient, asPosition, asRecord, fromFrame, type Value } from "./values.ts";
 
 /** Optional arguments by their names. */
 export type Options = ReadonlyMap<string, Value | true>;

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed, finite } from "../../parser/index.ts";
 import { normal, type Frame } from "./frame.ts";
 
 /** Numbers, truth values, texts, and records or arrays of them. */
@@ -129,9 +129,9 @@ export function binary(sign: string, left: Value, right: Value, at: TextPlace): 
   if (typeof left === "object" || typeof right === "object") return vector(sign, left, right, at);
   const a = asNumber(left, at);
   const b = asNumber(right, at);
-  if (["<", ">", "<=", ">="].includes(sign))
-    return sign === "<" ? a < b : sign === ">" ? a > b : sign === "<=" ? a <= b : a >= b;
-  return finite(arithmetic(sign, a, b, at), at);
+  const value = compared(sign, a, b) ?? computed(sign, a, b, at);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+  return typeof value === "boolean" ? value : finite(value, at);
 }
 
 /** Positions add, and are stretched by a number. */
@@ -143,32 +143,6 @@ function vector(sign: string, left: Value, right: Value, at: TextPlace): Value {
   const b = asPosition(right, at);
   if (sign === "+" || sign === "-") return a.map((x, i) => (sign === "+" ? x + b[i]! : x - b[i]!));
   throw new TextError(at, "numbers", `"${sign}" does not join positions.`);
-}
-
-function arithmetic(sign: string, a: number, b: number, at: TextPlace): number {
-  if ((sign === "/" || sign === "div" || sign === "mod") && b === 0)
-    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
-  switch (sign) {
-    case "+":
-      return a + b;
-    case "-":
-      return a - b;
-    case "*":
-      return a * b;
-    case "/":
-      return a / b;
-    case "div":
-      return Math.trunc(a / b);
-    case "mod":
-      return a % b;
-    default:
-      throw new TextError(at, "an operator", `"${sign}" is no operator.`);
-  }
-}
-
-export function finite(value: number, at: TextPlace): number {
-  if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is not a number.");
-  return value;
 }
 
 const same = (a: Value, b: Value): boolean =>

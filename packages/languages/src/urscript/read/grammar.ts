@@ -1,6 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 import {
+  BINDS_AS_C,
   RecoveringReader,
   readExpression,
   type Argument,
@@ -73,22 +74,7 @@ export const RESERVED: ReadonlySet<string> = new Set([
   "pass",
 ]);
 const RULES: ExpressionRules = {
-  binary: {
-    or: 1,
-    xor: 1,
-    and: 2,
-    "==": 4,
-    "!=": 4,
-    "<": 4,
-    ">": 4,
-    "<=": 4,
-    ">=": 4,
-    "+": 5,
-    "-": 5,
-    "*": 6,
-    "/": 6,
-    "%": 6,
-  },
+  binary: BINDS_AS_C,
   prefix: { not: 3, "-": 7, "+": 7 },
   constants: { True: true, False: false },
   tags: ["p"],
@@ -247,6 +233,15 @@ class Reader extends RecoveringReader {
         cursor.expect("end");
         return asWait({ kind: "while", when, body, ...at });
       }
+      default:
+        return this.ending(at, word);
+    }
+  }
+
+  /** Statements that end something, and those that begin with a name. */
+  private ending(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
       case "return": {
         cursor.advance();
         return cursor.isAt("line-end") || cursor.done

@@ -8,8 +8,9 @@ import {
   type Pose,
   type Robot,
 } from "@twincell/core";
-import { fromPose, inverted, matrixOf, sixOf, times, toPose, type Matrix } from "./frame.ts";
+import { fromPose, matrixOf, sixOf, toPose } from "./frame.ts";
 import type { PoseValue } from "./values.ts";
+import { inverted, times, type Matrix } from "../../parser/index.ts";
 
 /** Where the arm is sent, and what the controller works out about it. Poses count in the controller's base. */
 export class ControllerArm {

@@ -1,17 +1,7 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
-import { fromRollPitchYaw, inverted, matrixOf, sixOf, times, toRollPitchYaw, type Six } from "./frame.ts";
-import {
-  asNumber,
-  asNumbers,
-  asPose,
-  finite,
-  kindOf,
-  poseOf,
-  type ListValue,
-  type PoseValue,
-  type Value,
-} from "./values.ts";
+import { TextError, inverted, times, finite } from "../../parser/index.ts";
+import { fromRollPitchYaw, matrixOf, sixOf, toRollPitchYaw, type Six } from "./frame.ts";
+import { asNumber, asNumbers, asPose, kindOf, poseOf, type ListValue, type PoseValue, type Value } from "./values.ts";
 
 type Evaluate = (args: readonly Value[], at: TextPlace) => Value;
 type Entry = readonly [least: number, most: number, evaluate: Evaluate];

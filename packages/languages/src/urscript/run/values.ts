@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed, finite } from "../../parser/index.ts";
 import type { Six } from "./frame.ts";
 
 /** A pose, and where it was made of a variable and a pose in it: the frame that a person meant. */
@@ -88,41 +88,9 @@ export function binary(sign: string, left: Value, right: Value, at: TextPlace): 
   }
   const a = asNumber(left, at);
   const b = asNumber(right, at);
-  switch (sign) {
-    case "<":
-      return a < b;
-    case ">":
-      return a > b;
-    case "<=":
-      return a <= b;
-    case ">=":
-      return a >= b;
-    default:
-      return finite(arithmetic(sign, a, b, at), at);
-  }
-}
-
-function arithmetic(sign: string, a: number, b: number, at: TextPlace): number {
-  if ((sign === "/" || sign === "%") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
-  switch (sign) {
-    case "+":
-      return a + b;
-    case "-":
-      return a - b;
-    case "*":
-      return a * b;
-    case "/":
-      return a / b;
-    case "%":
-      return a % b;
-    default:
-      throw new TextError(at, "an operator", `"${sign}" is no operator.`);
-  }
-}
-
-export function finite(value: number, at: TextPlace): number {
-  if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is not a number.");
-  return value;
+  const value = compared(sign, a, b) ?? computed(sign, a, b, at);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+  return typeof value === "boolean" ? value : finite(value, at);
 }
 
 function same(a: Value, b: Value, at: TextPlace): boolean {

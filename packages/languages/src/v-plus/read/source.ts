@@ -1,5 +1,5 @@
 import type { TextFault } from "@twincell/core";
-import { TextError, textLines } from "../../parser/index.ts";
+import { TextError, LineReader } from "../../parser/index.ts";
 import { RoutineBuilder } from "./blocks.ts";
 import { Cursor } from "./cursor.ts";
 import { checkName, readExpression, readVariable } from "./expression.ts";
@@ -10,30 +10,17 @@ export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-/** More faults than this help nobody. */
-const MOST_FAULTS = 50;
-
 /** Reads a V+ disk file or a list of terminal commands. Goes on after a fault, so that all of them are told at once. */
 export function readSource(text: string): SourceAnswer {
   const reader = new SourceReader();
-  const lines = textLines(text);
-  for (const [i, line] of lines.entries()) {
-    reader.guard(() => {
-      reader.line(line, i + 1);
-    });
-    if (reader.faults.length >= MOST_FAULTS) break;
-  }
-  reader.guard(() => {
-    reader.end(lines.length + 1);
-  });
-  if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
+  const wrong = reader.read(text);
+  if (wrong !== undefined) return wrong;
   return { kind: "source", source: { routines: reader.routines, immediate: reader.immediate, data: reader.data } };
 }
 
 type Section = "terminal" | "program" | ".LOCATIONS" | ".REALS" | ".STRINGS";
 
-class SourceReader {
-  readonly faults: TextFault[] = [];
+class SourceReader extends LineReader {
   readonly routines = new Map<string, Routine>();
   readonly immediate: Statement[] = [];
   readonly data: Statement[] = [];
@@ -41,16 +28,7 @@ class SourceReader {
   private builder: RoutineBuilder | undefined;
   private opened = 0;
 
-  guard(read: () => void): void {
-    try {
-      read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-    }
-  }
-
-  line(text: string, line: number): void {
+  protected line(text: string, line: number): void {
     const dot = /^\s*(\.[A-Za-z]+)/.exec(text);
     if (dot !== null) return this.dotLine(dot[1]!.toUpperCase(), text, line, dot[0].length);
     const cursor = new Cursor(text, line);
@@ -60,7 +38,7 @@ class SourceReader {
     else this.data.push(dataLine(cursor, this.section));
   }
 
-  end(line: number): void {
+  protected end(line: number): void {
     if (this.section === "terminal") return;
     throw new TextError(
       { line, column: 1 },

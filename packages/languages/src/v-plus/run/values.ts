@@ -1,4 +1,4 @@
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed } from "../../parser/index.ts";
 import type { Expression, Variable } from "../read/syntax.ts";
 import { NULL_TRANSFORM, about, frameOf, fromTrans, inverted, shifted, times, type Transform } from "./transform.ts";
 
@@ -118,40 +118,22 @@ function binary(expression: Extract<Expression, { kind: "binary" }>, memory: Mem
       `"${sign}" joins numbers, not a ${kindOf(left)} and a ${kindOf(right)}.`,
     );
   }
+  return joined(sign, left, right, expression);
+}
+
+function joined(sign: string, left: number, right: number, at: Extract<Expression, { kind: "binary" }>): Value {
   switch (sign) {
-    case "+":
-      return real(left + right);
-    case "-":
-      return real(left - right);
-    case "*":
-      return real(left * right);
-    case "**":
-      return finite(real(left ** right), expression);
-    case "/":
-    case "MOD":
-      if (right === 0) throw new TextError(expression.right, "a divisor other than 0", "The divisor is 0.");
-      return real(sign === "/" ? left / right : left % right);
-    case "==":
-      return truth(left === right);
-    case "<>":
-      return truth(left !== right);
-    case "<":
-      return truth(left < right);
-    case ">":
-      return truth(left > right);
-    case "<=":
-      return truth(left <= right);
-    case ">=":
-      return truth(left >= right);
     case "AND":
       return truth(left !== 0 && right !== 0);
     case "OR":
       return truth(left !== 0 || right !== 0);
     case "XOR":
       return truth((left !== 0) !== (right !== 0));
-    default:
-      throw new TextError(expression, "an operator", `"${sign}" is no operator.`);
   }
+  const value = compared(sign, left, right) ?? computed(sign === "MOD" ? "mod" : sign, left, right, at.right);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+  if (typeof value === "boolean") return truth(value);
+  return sign === "**" ? finite(real(value), at) : real(value);
 }
 
 /** Name of the variable that a signal is called by, with or without a sign. */

@@ -1,5 +1,5 @@
 import { shownAxes } from "../../emitter/index.ts";
-import { millimetres, toVplusYpr, type JointLimits, type Pose, type Robot, type VendorSection } from "@twincell/core";
+import { millimetres, toVplusYpr, type Pose, type VendorSection } from "@twincell/core";
 import { singleText } from "../../parser/index.ts";
 
 /** TRANS(x,y,z,yaw,pitch,roll) in mm and degrees. */
@@ -18,16 +18,3 @@ export function ppointText(q_rad: ArrayLike<number>, section: VendorSection): st
 
 /** A millionth of a millimetre or of a degree is arithmetic, not a wish. */
 const tidy = (value: number): string => singleText(Math.abs(value) < 1e-6 ? 0 : value);
-
-/** The first joint, from 1, outside its limits; undefined when all are inside. */
-export function jointOutside(
-  robot: Robot,
-  q_rad: ArrayLike<number>,
-): { readonly joint: number; readonly limits: JointLimits } | undefined {
-  const i = robot.arm.joints.findIndex(
-    ({ limits }, k) =>
-      !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD),
-  );
-  return i < 0 ? undefined : { joint: i + 1, limits: robot.arm.joints[i]!.limits };
-}
-const LIMIT_SLACK_RAD = 1e-9;

@@ -1,16 +1,7 @@
-import {
-  compose,
-  inverse,
-  millimetres,
-  palletPitch,
-  rotate,
-  type Pallet,
-  type Pose,
-  type Vector3,
-} from "@twincell/core";
+import { compose, millimetres, palletPitch, rotate, type Pallet, type Vector3 } from "@twincell/core";
 import { singleText } from "../../parser/index.ts";
 import { transText } from "./location.ts";
-import type { Place } from "./postures.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
 
 /**
  * Variables of a pallet: the place being visited, the first place, and the counters of layer, outer and inner loop, and
@@ -29,16 +20,13 @@ export interface PalletNames {
  * A pallet as loops: every line before the steps that are done at a place. The first place and the pitches are written
  * in the world of the controller; SHIFT moves along its axes.
  */
-export function palletLines(pallet: Pallet, names: PalletNames, place: Place): string[] {
+export function palletLines(pallet: Pallet, names: PalletNames, place: WalkedPlace): string[] {
   const { layer, outer, inner, along } = names;
   const shifted = pallet.interleave === "odd-rows-shifted";
   const order = pallet.order ?? "rows";
   const byRows = order.startsWith("rows");
   const zigzag = order.endsWith("zigzag");
-  const vendorFromFrame = compose(
-    inverse(compose(place.worldFromBase, place.robot.baseFromVendorWorld)),
-    place.frames[pallet.frame] ?? ({ position: [0, 0, 0], quaternion: [0, 0, 0, 1] } as Pose<"world", "frame">),
-  );
+  const vendorFromFrame = compose(place.vendorFromWorld, place.worldFromFrame(pallet.frame));
   const pitch = palletPitch(pallet);
   const turned = (p: Vector3): Vector3 => rotate(vendorFromFrame.quaternion, p, [0, 0, 0]);
   const byColumn = turned(pitch.column);

@@ -1,7 +1,7 @@
 import type { EmittedFile, MoveStep, VendorSection } from "@twincell/core";
 import { ppointText } from "./location.ts";
 import type { ConfigurationMap } from "./postures.ts";
-import { TextWriter } from "./text-writer.ts";
+import { BlockWriter } from "../../emitter/index.ts";
 
 /** Components of a precision point of six joints in the array of the point list. */
 const STRIDE = 6;
@@ -16,7 +16,7 @@ export const pointLine = (at: number, q_rad: ArrayLike<number>, convention: Vend
  * The point list: one line per taught point, to be sent through a terminal. It fills an array and moves nothing (E-08).
  */
 export function pointList(moves: readonly MoveStep[], q_rad: ConfigurationMap, convention: VendorSection): EmittedFile {
-  const writer = new TextWriter();
+  const writer = new BlockWriter();
   for (const [i, { id }] of moves.entries()) writer.add(pointLine(i, q_rad.get(id)!, convention), id);
   return writer.file("ppPoints.txt");
 }

@@ -1,43 +1,17 @@
+import { branchOf, flangeOfTcp, flow, withLists, type Branch, type MoveStep, type Step } from "@twincell/core";
 import {
-  branchOf,
-  compose,
-  degrees,
-  explainReach,
-  flangeOfTcp,
-  flow,
-  identity,
-  solveAll,
-  withLists,
-  type Branch,
-  type MoveStep,
-  type Pose,
-  type Program,
-  type Robot,
-  type Step,
-  type Target,
-} from "@twincell/core";
-import { jointOutside } from "./location.ts";
+  flangeReached,
+  numberedJoint,
+  otherArm,
+  outsideLimits,
+  type Cannot,
+  type Reached,
+  type WalkedPlace,
+} from "../../emitter/index.ts";
 
-/** Where the programs of a cell count from, and what they refer to. */
-export interface Place {
-  readonly robot: Robot;
-  readonly worldFromBase: Pose<"world", "base">;
-  readonly tools: Program["tools"];
-  readonly frames: Program["frames"];
-}
-type PoseTarget = Extract<Target, { readonly pose: unknown }>;
 /** Joint angles by step id. */
 export type ConfigurationMap = ReadonlyMap<string, ArrayLike<number>>;
-export type Configurations =
-  | { readonly kind: "postures"; readonly q_rad: ConfigurationMap }
-  | { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string };
-
-export const toolOf = ({ tools }: Place, name: string): Pose<"flange", "tcp"> =>
-  Object.hasOwn(tools, name) ? tools[name]! : identity();
-
-export function worldFromTarget({ frames }: Place, { pose, frame }: PoseTarget): Pose<"world", "tcp"> {
-  return compose(Object.hasOwn(frames, frame) ? frames[frame]! : identity<"world", "frame">(), pose);
-}
+export type Configurations = { readonly kind: "postures"; readonly q_rad: ConfigurationMap } | Cannot;
 
 /**
  * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with
@@ -45,7 +19,8 @@ export function worldFromTarget({ frames }: Place, { pose, frame }: PoseTarget):
  * one posture for all of them, so each must be reached in it. Stops at the first point that cannot be reached or lies
  * outside the limits.
  */
-export function configurationsOf(program: Program, place: Place): Configurations {
+export function configurationsOf(place: WalkedPlace): Configurations {
+  const { program } = place;
   const q_rad = new Map<string, ArrayLike<number>>();
   let near: ArrayLike<number> = place.robot.home_rad;
   // Routines that nobody calls are written all the same.
@@ -105,45 +80,21 @@ function anyWay(step: Step): Step {
 
 /** @param inBranch  the posture that the text has said already. */
 function postureOf(
-  { id, name, target }: MoveStep,
-  place: Place,
+  step: MoveStep,
+  place: WalkedPlace,
   near: ArrayLike<number>,
   inBranch: Branch | undefined,
-): { readonly kind: "posture"; readonly q_rad: ArrayLike<number> } | Extract<Configurations, { kind: "cannot" }> {
+): Reached | Cannot {
   const { robot, worldFromBase } = place;
-  const called = `Step ${name ?? id}`;
-  let q_rad: ArrayLike<number>;
-  if ("q" in target) {
-    if (target.q.length !== robot.arm.joints.length) {
-      return {
-        kind: "cannot",
-        step: id,
-        sentence: `${called} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`,
-        hint: "Teach the step again on this robot.",
-      };
-    }
-    q_rad = target.q;
-  } else {
-    const branch = target.branch ?? inBranch;
-    const baseFromFlange = flangeOfTcp(worldFromBase, worldFromTarget(place, target), toolOf(place, target.tool));
-    const reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
-    if (reach.kind !== "reached") {
-      return {
-        kind: "cannot",
-        step: id,
-        sentence: `${called} cannot be reached. ${explainReach(reach)}`,
-        hint: "Check the program: it says what would bring the step into reach.",
-      };
-    }
-    q_rad = reach.solutions[0]!.q_rad;
+  const { target } = step;
+  const found = "q" in target ? (otherArm(robot, step, target.q) ?? reached(target.q)) : byPose(target);
+  if (found.kind !== "reached") return found.kind === "no-solver" ? found.answer : found;
+  return outsideLimits(robot, step, found.q_rad, numberedJoint) ?? found;
+
+  function byPose(to: Extract<typeof target, { readonly pose: unknown }>): ReturnType<typeof flangeReached> {
+    const flange = flangeOfTcp(worldFromBase, place.worldFromTarget(to, to.tool), place.tool(to.tool));
+    return flangeReached(robot, step, flange, near, to.branch ?? inBranch);
   }
-  const outside = jointOutside(robot, q_rad);
-  if (outside === undefined) return { kind: "posture", q_rad };
-  const { joint, limits } = outside;
-  return {
-    kind: "cannot",
-    step: id,
-    sentence: `${called} turns joint ${joint} to ${degrees(q_rad[joint - 1]!).toFixed(2)}°; it may turn from ${degrees(limits.lower_rad).toFixed(1)}° to ${degrees(limits.upper_rad).toFixed(1)}°.`,
-    hint: "Move the point, or choose another branch for it.",
-  };
 }
+
+const reached = (q_rad: ArrayLike<number>): Reached => ({ kind: "reached", q_rad });

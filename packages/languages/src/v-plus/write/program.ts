@@ -20,6 +20,7 @@ import {
 } from "@twincell/core";
 import { asciiText, singleText } from "../../parser/index.ts";
 import {
+  BlockWriter,
   PENDANT_UNITS,
   UnsupportedStep,
   assignText,
@@ -27,12 +28,12 @@ import {
   expressionText,
   linesLookedAt,
   type ExpressionWords,
+  type WalkedPlace,
 } from "../../emitter/index.ts";
 import { ppointText, transText } from "./location.ts";
 import { commentText, vPlusName } from "./names.ts";
 import { palletLines, type PalletNames } from "./pallet.ts";
-import { toolOf, worldFromTarget, type Place, type ConfigurationMap } from "./postures.ts";
-import { TextWriter } from "./text-writer.ts";
+import type { ConfigurationMap } from "./postures.ts";
 
 /** The words of the controller for a branch: shoulder, elbow, wrist, which is not flipped where axis 5 is above 0. */
 const words = ({ shoulder, elbow, wrist }: Branch, above: Branch["wrist"]): string[] => [
@@ -44,10 +45,10 @@ const words = ({ shoulder, elbow, wrist }: Branch, above: Branch["wrist"]): stri
 /** The runnable program (E-08): says only what changes from one step to the next. */
 export class ProgramWriter {
   private readonly program: Program;
-  private readonly place: Place;
+  private readonly place: WalkedPlace;
   private readonly convention: VendorSection;
   private readonly q_rad: ConfigurationMap;
-  private readonly out = new TextWriter();
+  private readonly out = new BlockWriter();
   private readonly names = new Set<string>();
   private readonly toolNames = new Map<string, string>();
   private readonly variableNames = new Map<string, string>();
@@ -64,7 +65,8 @@ export class ProgramWriter {
   private group = "";
   private indent = "  ";
 
-  constructor(program: Program, place: Place, convention: VendorSection, q_rad: ConfigurationMap) {
+  constructor(place: WalkedPlace, convention: VendorSection, q_rad: ConfigurationMap) {
+    const { program } = place;
     this.q_rad = q_rad;
     this.program = program;
     this.place = place;
@@ -84,7 +86,7 @@ export class ProgramWriter {
     out.add(`.PROGRAM ${name}() ;${asciiText(program.name)}`);
     out.add(`  ;* ${asciiText(place.robot.name)}. Lengths in mm, angles in degrees, the world at the shoulder.`);
     for (const tool of this.toolsUsed())
-      out.add(`  SET ${this.named(this.toolNames, tool)} = ${transText(toolOf(place, tool))}`);
+      out.add(`  SET ${this.named(this.toolNames, tool)} = ${transText(place.tool(tool))}`);
     for (const signal of signalsUsed(program))
       out.add(`  ${this.named(this.signalNames, signal)} = ${program.signals[signal]!.address!}`);
     this.list(program.steps);
@@ -154,6 +156,19 @@ export class ProgramWriter {
         return add("HALT");
       case "comment":
         return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
+      default:
+        return this.flow(step);
+    }
+  }
+
+  /** What computes, repeats and decides. */
+  private flow(
+    step: Exclude<Step, { type: "wait" | "gripper" | "move" | "set" | "wait-for" | "message" | "stop" | "comment" }>,
+  ): void {
+    const add = (line: string): void => {
+      this.out.add(`${this.indent}${line}`, step.id);
+    };
+    switch (step.type) {
       case "assign":
         return add(assignText(step, " = ", this.words, this.program));
       case "while":
@@ -306,7 +321,7 @@ export class ProgramWriter {
     // Inside its step, a pallet's name is the place.
     if (pallet !== undefined) return `${pallet.place}:${transText(target.pose)}`;
     const { place } = this;
-    const baseFromTcp = compose(inverse(place.worldFromBase), worldFromTarget(place, target));
+    const baseFromTcp = compose(inverse(place.worldFromBase), place.worldFromTarget(target, target.tool));
     return transText(compose(inverse(place.robot.baseFromVendorWorld), baseFromTcp));
   }
 

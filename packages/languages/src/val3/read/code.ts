@@ -1,6 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 import {
+  BINDS_AS_C,
   RecoveringReader,
   readExpression,
   type Argument,
@@ -74,22 +75,7 @@ const RESERVED: ReadonlySet<string> = new Set([
   "xor",
 ]);
 const RULES: ExpressionRules = {
-  binary: {
-    or: 1,
-    xor: 1,
-    and: 2,
-    "==": 4,
-    "!=": 4,
-    "<": 4,
-    ">": 4,
-    "<=": 4,
-    ">=": 4,
-    "+": 5,
-    "-": 5,
-    "*": 6,
-    "/": 6,
-    "%": 6,
-  },
+  binary: BINDS_AS_C,
   prefix: { "!": 7, "-": 7, "+": 7 },
   constants: { true: true, false: false },
   tags: [],

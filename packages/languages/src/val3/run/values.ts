@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, compared, computed, finite as finiteOr } from "../../parser/index.ts";
 import type { DataDeclaration } from "../read/application.ts";
 import type { Config } from "./arm.ts";
 import { NOTHING, fromSix, toSix, type Trsf } from "./trsf.ts";
@@ -151,18 +151,7 @@ export function componentOf(value: Value, name: string): Value | undefined {
     case "joint":
       return value.deg[JOINTS.indexOf(name)];
     case "mdesc":
-      return name === "tvel"
-        ? value.tmax
-        : name === "accel" ||
-            name === "vel" ||
-            name === "tmax" ||
-            name === "leave" ||
-            name === "reach" ||
-            name === "blend"
-          ? value[name]
-          : name === "decel"
-            ? value.accel
-            : undefined;
+      return partOf(value, name);
     default:
       return undefined;
   }
@@ -181,15 +170,47 @@ export function withComponent(value: Value, name: string, to: Value): Value | un
     const place = JOINTS.indexOf(name);
     return place < 0 ? undefined : { ...value, deg: value.deg.with(place, to) };
   }
-  if (value.kind !== "mdesc") return undefined;
-  if (typeof to === "number") {
-    if (name === "tvel" || name === "tmax") return { ...value, tmax: to };
-    if (name === "decel" || name === "rvel" || name === "rmax") return value;
-    return name === "accel" || name === "vel" || name === "leave" || name === "reach"
-      ? { ...value, [name]: to }
-      : undefined;
+  return value.kind === "mdesc" ? withPart(value, name, to) : undefined;
+}
+
+/** A part of a motion descriptor. */
+function partOf(descriptor: Description, name: string): Value | undefined {
+  switch (name) {
+    case "tvel":
+      return descriptor.tmax;
+    case "decel":
+      return descriptor.accel;
+    case "accel":
+    case "vel":
+    case "tmax":
+    case "leave":
+    case "reach":
+    case "blend":
+      return descriptor[name];
+    default:
+      return undefined;
   }
-  return name === "blend" && typeof to === "string" ? { ...value, blend: to.toLowerCase() } : undefined;
+}
+
+function withPart(descriptor: Description, name: string, to: Value): Value | undefined {
+  if (typeof to !== "number")
+    return name === "blend" && typeof to === "string" ? { ...descriptor, blend: to.toLowerCase() } : undefined;
+  switch (name) {
+    case "tvel":
+    case "tmax":
+      return { ...descriptor, tmax: to };
+    case "decel":
+    case "rvel":
+    case "rmax":
+      return descriptor;
+    case "accel":
+    case "vel":
+    case "leave":
+    case "reach":
+      return { ...descriptor, [name]: to };
+    default:
+      return undefined;
+  }
 }
 
 /** What a variable of a program begins with. */
@@ -224,57 +245,32 @@ export function beginning(type: string): Value | undefined {
 }
 
 export function binary(sign: string, left: Value, right: Value, at: TextPlace): Value {
-  if (typeof left === "boolean" && typeof right === "boolean") {
-    switch (sign) {
-      case "and":
-        return left && right;
-      case "or":
-        return left || right;
-      case "xor":
-      case "!=":
-        return left !== right;
-      case "==":
-        return left === right;
-      default:
-        throw new TextError(at, "and, or, xor, == or !=", `"${sign}" does not join truth values.`);
-    }
-  }
+  if (typeof left === "boolean" && typeof right === "boolean") return logic(sign, left, right, at);
   if (typeof left === "string" && typeof right === "string") {
     if (sign === "+") return left + right;
     if (sign === "==" || sign === "!=") return (left === right) === (sign === "==");
   }
   const a = asNumber(left, at);
   const b = asNumber(right, at);
-  if ((sign === "/" || sign === "%") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+  const value = compared(sign, a, b) ?? computed(sign, a, b, at);
+  if (value === undefined) throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+  return typeof value === "boolean" || sign === "%" ? value : finite(value, at);
+}
+
+function logic(sign: string, left: boolean, right: boolean, at: TextPlace): boolean {
   switch (sign) {
-    case "+":
-      return finite(a + b, at);
-    case "-":
-      return finite(a - b, at);
-    case "*":
-      return finite(a * b, at);
-    case "/":
-      return finite(a / b, at);
-    case "%":
-      return a % b;
-    case "==":
-      return a === b;
+    case "and":
+      return left && right;
+    case "or":
+      return left || right;
+    case "xor":
     case "!=":
-      return a !== b;
-    case "<":
-      return a < b;
-    case ">":
-      return a > b;
-    case "<=":
-      return a <= b;
-    case ">=":
-      return a >= b;
+      return left !== right;
+    case "==":
+      return left === right;
     default:
-      throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+      throw new TextError(at, "and, or, xor, == or !=", `"${sign}" does not join truth values.`);
   }
 }
 
-export function finite(value: number, at: TextPlace): number {
-  if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is no number.");
-  return value;
-}
+export const finite = (value: number, at: TextPlace): number => finiteOr(value, at, "The result is no number.");

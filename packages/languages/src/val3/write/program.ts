@@ -34,6 +34,8 @@ import {
   type ExpressionWords,
   type Place,
   shownAxes,
+  lineKind,
+  checkSetting,
 } from "../../emitter/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
@@ -199,6 +201,17 @@ export class ApplicationWriter extends BlockStepWriter {
           );
         return add(`putln("${text}")`);
       }
+      default:
+        return this.flow(step);
+    }
+  }
+
+  /** What ends, repeats and decides. */
+  private flow(step: Exclude<Step, { type: "move" | "wait" | "gripper" | "set" | "wait-for" | "message" }>): void {
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    switch (step.type) {
       case "stop":
         this.onlyInMain(step, "ends the program");
         return add("return");
@@ -245,18 +258,9 @@ export class ApplicationWriter extends BlockStepWriter {
 
   /** Loops over layers, lines and places; the place is a frame that is put from one to the next. */
   private pallet(step: PalletStep, add: (line: string) => void): void {
-    const { program, baseFromWorld, robot } = this.place;
+    const { program } = this.place;
     const { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
-    const vendorFromFrame: Pose<"frame", "frame"> =
-      pallet.frame === "world"
-        ? compose(
-            compose(
-              pose<"frame", "base">(),
-              compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld),
-            ),
-            pose<"world", "frame">(),
-          )
-        : pose();
+    const vendorFromFrame = this.place.vendorFromFrame(pallet.frame);
     const first = compose(vendorFromFrame, pallet.origin);
     const frame = this.frame(step.pallet, step.id);
     const [layer, line, along, at] = ["layer", "line", "along", "at"].map(word => this.counter(word)) as [
@@ -315,15 +319,8 @@ export class ApplicationWriter extends BlockStepWriter {
   }
 
   private lineOf(signal: string, step: Step): { readonly name: string; readonly kind: SignalLine["kind"] } {
-    const { signals } = this.place.program;
     const name = this.signalName(signal, step);
-    if (!Object.hasOwn(signals, signal))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
-        "Add it to the list.",
-      );
-    const { kind } = signals[signal]!;
+    const kind = lineKind(this.place.program, signal, step);
     this.data.add(name, kind.startsWith("digital") ? "dio" : "aio", ' link=""', "");
     return { name, kind };
   }
@@ -331,18 +328,7 @@ export class ApplicationWriter extends BlockStepWriter {
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
     const { name, kind } = this.lineOf(step.signal, step);
     const { to } = step;
-    if (kind.endsWith("in"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes the line ${step.signal}, which is an input.`,
-        "Choose an output.",
-      );
-    if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new UnsupportedStep(
-        step.id,
-        `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
-        "Choose a value of that line.",
-      );
+    checkSetting(step, kind);
     add(typeof to === "number" ? `aioSet(${name},${fixed(to, 6)})` : `${name}=${to}`);
   }
 
@@ -411,7 +397,7 @@ export class ApplicationWriter extends BlockStepWriter {
     const { target, path, id } = step;
     const isAngles = path === "ptp" && "q" in target;
     const tool = target.tool ?? (isAngles ? (this.tool ?? "flange") : "flange");
-    const configuration = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    const configuration = this.place.posture(step, isAngles ? target : this.place.asPose(target), this.near);
     const frame = "q" in target ? "world" : target.frame;
     this.near = configuration ?? this.near;
     this.tool = tool;
@@ -427,17 +413,6 @@ export class ApplicationWriter extends BlockStepWriter {
     if (step.via === undefined)
       throw new UnsupportedStep(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
     add(`${word}(${this.point(step, step.via, frame, configuration, "_via")},${goal},${rest})`);
-  }
-
-  private reached(target: Target): Target {
-    const branch = "q" in target ? branchOf(this.place.robot, target.q) : undefined;
-    if (!("q" in target) || branch === undefined) return target;
-    return {
-      pose: compose(compose(pose<"frame", "world">(), this.place.worldFromBase), this.place.tip(target)),
-      frame: "world",
-      tool: target.tool ?? "flange",
-      branch,
-    };
   }
 
   private point(

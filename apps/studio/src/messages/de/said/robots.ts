@@ -100,8 +100,36 @@ export const saidByRobots: Sentences = {
   "Look at its address, its cable and whether it is on.":
     "Adresse und Kabel prüfen, und ob die Steuerung eingeschaltet ist.",
   "{name} is being connected, attempt {n}.": "{name} wird verbunden, Versuch {n}.",
-  "Step “{step}” is {what}, which {robot} cannot be told move by move.":
-    "Der Schritt „{step}“ ist {what}; das lässt sich {robot} nicht Bewegung für Bewegung sagen.",
+  "{robot} cannot be told a spline move by move.": "{robot} lässt sich ein Spline nicht Bewegung für Bewegung sagen.",
+  "{robot} cannot be told a search move by move.":
+    "{robot} lässt sich eine Suchfahrt nicht Bewegung für Bewegung sagen.",
+  "{steps} cannot be carried out over this connection: {because}":
+    "{steps} lässt sich über diese Verbindung nicht ausführen: {because}",
+  "Nothing has moved.": "Nichts hat sich bewegt.",
+  "Standard V+ has no arcs.": "Standard-V+ hat keine Kreisbögen.",
+  "Use lines through points of the arc.": "Geraden durch Punkte des Bogens verwenden.",
+  "Arcs are not sent over this interface: their points need FANUC's words for a posture, which have not been tried.":
+    "Kreisbögen werden über diese Schnittstelle nicht gesendet: Ihre Punkte brauchen die Stellungsangaben von FANUC, die noch nicht erprobt sind.",
+  "Run the program as text of the controller's own language, or use lines.":
+    "Das Programm als Text in der Sprache der Steuerung ausführen, oder Geraden verwenden.",
+  "{robot} cannot be told an arc by a command of its Ethernet server.":
+    "{robot} lässt sich über den Ethernet-Server kein Kreisbogen befehlen.",
+  "Run the program as a job: INFORM has MOVC.": "Das Programm als Job ausführen: INFORM hat MOVC.",
+  "{robot} cannot be told an acceleration by a command of its Ethernet server.":
+    "{robot} lässt sich über den Ethernet-Server keine Beschleunigung befehlen.",
+  "Run the program as a job: INFORM has ACC= and DEC=.": "Das Programm als Job ausführen: INFORM hat ACC= und DEC=.",
+  "{path} cannot be said over this connection: ros_server moves from joint point to joint point and stops at each.":
+    "{path} lässt sich über diese Verbindung nicht sagen: ros_server fährt von Gelenkpunkt zu Gelenkpunkt und hält an jedem.",
+  "A straight line": "Eine Gerade",
+  "An arc": "Ein Kreisbogen",
+  "Export the program as VAL 3 and start it at the pendant, or use joint moves.":
+    "Das Programm als VAL 3 exportieren und am Bedienpult starten, oder Gelenkbewegungen verwenden.",
+  "A softer acceleration cannot be said over this connection: ros_server uses the controller's own.":
+    "Eine sanftere Beschleunigung lässt sich über diese Verbindung nicht sagen: ros_server nimmt die der Steuerung.",
+  "Leave the acceleration at 100 %, or export the program as VAL 3.":
+    "Die Beschleunigung bei 100 % lassen, oder das Programm als VAL 3 exportieren.",
+  "The protocol of ros_server carries no signals.": "Das Protokoll von ros_server überträgt keine Signale.",
+  "Set them in a VAL 3 program.": "In einem VAL-3-Programm setzen.",
   "Run the program as text of the controller's own language.":
     "Das Programm als Text in der Sprache der Steuerung ausführen.",
   "{robot} cannot be told its payload over this connection.":
