@@ -17,7 +17,8 @@ export type DialogName =
   | "people"
   | "shapes"
   | "run-question"
-  | "demonstration";
+  | "demonstration"
+  | "glove";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

@@ -5,6 +5,8 @@ import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
+import { glove } from "./glove.ts";
+import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
@@ -27,7 +29,9 @@ export const en = {
   direct,
   editor,
   people: peopleWords,
+  glove,
   headset,
+  lesson,
   offline,
   own,
   phone,
