@@ -50,6 +50,7 @@ const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
+const Fleet = lazy(() => import("./features/fleet/Fleet.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
@@ -196,6 +197,7 @@ export function App() {
         <Suspense>
           <Cameras />
           <People />
+          <Fleet />
         </Suspense>
         <Files />
         <Shortcuts />

@@ -13,6 +13,7 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "people"
+  | "fleet"
   | "shapes"
   | "run-question"
   | "demonstration";

@@ -5,6 +5,7 @@ import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
 import { peopleWords } from "./people.ts";
+import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
 import { phone } from "./phone.ts";
@@ -26,6 +27,7 @@ export const catalogue: Translation<typeof en> = {
   ...recordsWords,
   direct,
   people: peopleWords,
+  fleet: fleetWords,
   headset,
   offline,
   phone,

@@ -3,6 +3,7 @@ import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
 import { peopleWords } from "./people.ts";
+import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
 import { phone } from "./phone.ts";
@@ -23,6 +24,7 @@ export const en = {
   ...recordsWords,
   direct,
   people: peopleWords,
+  fleet: fleetWords,
   headset,
   offline,
   phone,
