@@ -1,7 +1,7 @@
 import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Page } from "playwright-core";
+import type { Locator, Page } from "playwright-core";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
@@ -35,6 +35,10 @@ async function fleet(page: Page): Promise<void> {
   await page.getByRole("dialog", { name: "Fleet" }).waitFor();
 }
 
+/** Resolves when a dialog has come up, however slowly frames are drawn. */
+const shown = (dialog: Locator): Promise<unknown> =>
+  dialog.evaluate(element => Promise.all(element.getAnimations({ subtree: true }).map(each => each.finished)));
+
 test("T-56 T-58 the fleet shows every robot of the server with its state, finds one, and leads to its twin and its history, on a desk and a phone; a server for training says so, and offers no real controller", async () => {
   await connected("weld1", "Weld 1", "ur", "ur10e");
   await connected("tend2", "Tend 2", "yaskawa", "yaskawa_gp8");
@@ -52,6 +56,7 @@ test("T-56 T-58 the fleet shows every robot of the server with its state, finds 
   expect(await dialog.getByLabel("Figures").innerText()).toMatch(/Robots\s*3\s*\d linked/);
   const needs = dialog.getByRole("region", { name: "Needs you" });
   await needs.getByText("Tend 2").waitFor();
+  await shown(dialog);
   await page.screenshot({ path: picture("fleet") });
 
   await dialog.getByRole("button", { name: /^Stopped/ }).click();
@@ -69,12 +74,7 @@ test("T-56 T-58 the fleet shows every robot of the server with its state, finds 
   await card("Weld 1").hover();
   await card("Weld 1").getByRole("button", { name: "Twin of Weld 1" }).click();
   await dialog.waitFor({ state: "detached" });
-  await page
-    .getByRole("button", { name: /Weld 1/ })
-    .first()
-    .or(page.getByText("Weld 1"))
-    .first()
-    .waitFor();
+  await page.locator(".station").filter({ hasText: "Weld 1" }).waitFor();
 
   // The lock: no way to a real controller is offered, and the server refuses one that is asked for all the same.
   await page.evaluate(() => window.twincell.stores.dialogStore.setState({ open: "station" }));
@@ -91,6 +91,7 @@ test("T-56 T-58 the fleet shows every robot of the server with its state, finds 
   await small.getByRole("button", { name: "Twin of Tend 2" }).first().waitFor();
   const wide = await small.evaluate(element => element.scrollWidth - element.clientWidth);
   expect(wide).toBeLessThanOrEqual(0);
+  await shown(small);
   await phone.page.screenshot({ path: picture("fleet-phone") });
   expect(phone.problems).toEqual([]);
 });
