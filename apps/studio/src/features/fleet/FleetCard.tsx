@@ -8,7 +8,7 @@ import { notify } from "../../stores/notices.ts";
 import { shortName } from "../../stores/robot.ts";
 import { showMode } from "../../stores/view.ts";
 import { say, words } from "../../messages/index.ts";
-import { fixed, moment } from "../../messages/numbers.ts";
+import { fixed, moment, timeOfDay } from "../../messages/numbers.ts";
 import { keyOf } from "./order.ts";
 
 interface Props {
@@ -16,7 +16,10 @@ interface Props {
   readonly lit: boolean;
   readonly onLight: (key: string | null) => void;
 }
-export const timeOf = (time_ms: number): string => moment(time_ms);
+const DAY_MS = 86_400_000;
+/** The time of day, with the day where that is not the last one. */
+export const timeOf = (time_ms: number): string =>
+  Date.now() - time_ms < DAY_MS ? timeOfDay(time_ms) : moment(time_ms);
 const modelOf = ({ model }: FleetEntry): string => {
   const robot = robotById(model);
   return robot ? shortName(robot) : model;

@@ -2,7 +2,7 @@ import type { FleetEntry } from "@twincell/protocol";
 import { useState } from "react";
 import { Segments } from "../../ui/Choice.tsx";
 import { words } from "../../messages/index.ts";
-import { keyOf } from "./order.ts";
+import { keyOf, shownRobots } from "./order.ts";
 import { openTwin } from "./FleetCard.tsx";
 
 type Colour = "state" | "use" | "link";
@@ -39,25 +39,23 @@ export function FleetMap({
         <div key={site} className="fleet-site">
           <span className="small muted">{site}</span>
           <div className="fleet-places">
-            {robots
-              .filter(robot => robot.site === site)
-              .map(robot => (
-                <button
-                  key={keyOf(robot)}
-                  className="fleet-place"
-                  data-state={robot.state}
-                  data-colour={colour}
-                  data-lit={lit === keyOf(robot)}
-                  style={colour === "state" ? undefined : { ["--share" as string]: shareOf(robot, colour) }}
-                  aria-label={`${robot.name}: ${words.fleet.states[robot.state]}`}
-                  title={robot.name}
-                  onPointerEnter={() => onLight(keyOf(robot))}
-                  onPointerLeave={() => onLight(null)}
-                  onClick={() => void openTwin(robot)}
-                >
-                  {(robot.state === "stopped" || robot.state === "attention") && <span>{robot.name}</span>}
-                </button>
-              ))}
+            {shownRobots(robots, { query: "", state: null, site, order: "name" }).map(robot => (
+              <button
+                key={keyOf(robot)}
+                className="fleet-place"
+                data-state={robot.state}
+                data-colour={colour}
+                data-lit={lit === keyOf(robot)}
+                style={colour === "state" ? undefined : { ["--share" as string]: shareOf(robot, colour) }}
+                aria-label={`${robot.name}: ${words.fleet.states[robot.state]}`}
+                title={robot.name}
+                onPointerEnter={() => onLight(keyOf(robot))}
+                onPointerLeave={() => onLight(null)}
+                onClick={() => void openTwin(robot)}
+              >
+                {(robot.state === "stopped" || robot.state === "attention") && <span>{robot.name}</span>}
+              </button>
+            ))}
           </div>
         </div>
       ))}
