@@ -4,6 +4,7 @@ import { blocksOf, followGuide } from "./follow.ts";
 describe.each([
   ["docs/add-a-check.md", "packages/core"],
   ["docs/add-a-file-format.md", "packages/formats"],
+  ["docs/add-a-controller.md", "packages/controllers"],
 ])("%s, followed in a copy of %s", (guide, folder) => {
   const followed = followGuide(guide, folder);
   afterAll(() => {

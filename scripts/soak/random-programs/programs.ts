@@ -47,14 +47,8 @@ function box(id: string, at: Vector3, about_m: number, random: Random): CellObje
   return { id, name: id, worldFromObject, mesh: boxMesh([side(), side(), side()]) };
 }
 
-/** What programs are kept to: moves by joints, and a stop at each target. */
-export interface Only {
-  readonly joints: boolean;
-  readonly stops: boolean;
-}
-
 /** One to three moves to random joint angles: by joints, by a line or along an arc, at a random speed, some rounded. */
-export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, only: Only, random: Random): Program {
+export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, onlyJoints: boolean, random: Random): Program {
   const steps: MoveStep[] = [];
   let at = Array.from(from_rad);
   const near = (q: readonly number[], most_rad: number): number[] =>
@@ -65,7 +59,7 @@ export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, only: O
     });
   const count = 1 + Math.floor(3 * random());
   for (let i = 0; i < count; i++) {
-    const how = only.joints ? 0 : random();
+    const how = onlyJoints ? 0 : random();
     const path = how < 0.65 ? "ptp" : how < 0.9 ? "lin" : "circ";
     const q = near(at, path === "ptp" ? 1.2 : 0.35);
     steps.push({
@@ -75,7 +69,7 @@ export function randomProgram(robot: Robot, from_rad: ArrayLike<number>, only: O
       target: { q },
       ...(path === "circ" ? { via: { q: near(at, 0.2) } } : {}),
       speed: path === "ptp" ? { ratio: between(random, 0.2, 1) } : { mps: between(random, 0.1, 1) },
-      blend_m: !only.joints && !only.stops && i < count - 1 && random() < 0.4 ? between(random, 0.005, 0.05) : 0,
+      blend_m: i < count - 1 && random() < 0.4 ? between(random, 0.005, 0.05) : 0,
     });
     at = q;
   }

@@ -23,7 +23,7 @@ import {
   type Robot,
 } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { emptyCell, randomObjects, randomProgram, touching, type Only } from "./programs.ts";
+import { emptyCell, randomObjects, randomProgram, touching } from "./programs.ts";
 
 const HOST = "127.0.0.1";
 /** How often it is looked whether the arm touches anything, and how finely a plan is looked through [s]. */
@@ -34,13 +34,8 @@ const STRIDE = 7919;
 const ENDS_S = 60;
 /** What a connection declares that it cannot say, found out where the step is reached. */
 const CANNOT_SAY = new Set(["yaskawa.arc", "fanuc.arc", "cs7.arc", "staubli.path"]);
-/** Connections that can be told joint moves without rounding alone. */
+/** Connections that can be told joint moves alone. */
 const ONLY_JOINTS = new Set(["staubli"]);
-/**
- * Languages that round corners by levels of their own, not by a distance: the arm does not take the path of the plan
- * there, and what was proven of the plan does not hold for it.
- */
-const ROUNDS_OTHERWISE = new Set(["yaskawa", "fanuc"]);
 /** Tries for objects that leave the robot room where it stands. */
 const TRIES = 20;
 
@@ -165,14 +160,8 @@ export async function soak(
     const random = seededRandom(own);
     const connection = await open(kind, own, random);
     try {
-      await programs(
-        connection,
-        { joints: ONLY_JOINTS.has(kind.id), stops: ROUNDS_OTHERWISE.has(kind.id) },
-        random,
-        wanted,
-        counts,
-        outcomes,
-        (program, what) => failed.push({ seed: own, program, what }),
+      await programs(connection, ONLY_JOINTS.has(kind.id), random, wanted, counts, outcomes, (program, what) =>
+        failed.push({ seed: own, program, what }),
       );
     } finally {
       connection.close();
@@ -185,7 +174,7 @@ type Counts = Record<"colliding" | "touched" | "stopped" | "clear" | "ended" | "
 
 async function programs(
   { scheduler, robot, station, virtual, asked }: Station,
-  only: Only,
+  onlyJoints: boolean,
   random: () => number,
   wanted: { readonly colliding: number; readonly clear: number },
   counts: Counts,
@@ -231,11 +220,11 @@ async function programs(
     if (counts.colliding >= wanted.colliding && counts.clear >= wanted.clear) break;
     const from_rad = station.controller.jointAngles().slice();
     const wantsContact = random() < 0.5;
-    let program = randomProgram(robot, from_rad, only, random);
+    let program = randomProgram(robot, from_rad, onlyJoints, random);
     let cell = bare;
     let hasRoom = false;
     for (let tries = 0; tries < TRIES && !hasRoom; tries++) {
-      if (tries > 0) program = randomProgram(robot, from_rad, only, random);
+      if (tries > 0) program = randomProgram(robot, from_rad, onlyJoints, random);
       cell = { ...bare, objects: randomObjects(robot, from_rad, program, wantsContact, random) };
       hasRoom = clearOf({ ...cell, links: linkSolids(robot) }, robot).isSafe(from_rad);
     }

@@ -1,18 +1,20 @@
 import {
   boxMesh,
+  distance,
   emptyProgram,
   flangePose,
   manualScheduler,
   pose,
   robotById,
+  samplePlan,
   type Dialect,
   type MoveStep,
   type Program,
 } from "@twincell/core";
-import { expect, test } from "vitest";
+import { describe, expect, test } from "vitest";
 import { driverKindById } from "../brands.ts";
 import { endedOn } from "../testing/index.ts";
-import { prepareJob, openRobotConnection, type PrepareJob } from "./index.ts";
+import { prepareJob, openRobotConnection, type JobQuestion, type PrepareJob } from "./index.ts";
 
 const robot = robotById("ur10e")!;
 const to = (by_rad: number): number[] => robot.home_rad.map((q, i) => (i === 0 ? q + by_rad : q));
@@ -184,4 +186,58 @@ test("a program that cannot be planned to its end is refused with the reason, an
   if (outcome.kind === "refused") expect(outcome.why.sentence).toMatch(/far|9/);
   expect(Array.from(seat.robot.jointAngles())).toEqual(before);
   station.close();
+});
+
+describe("T-63 the plan that a robot is watched along is what it will do", () => {
+  const gp8 = robotById("yaskawa_gp8")!;
+  const posture = (s: number, l: number): number[] => gp8.home_rad.map((q, i) => q + [s, l, 0, 0, 0, 0][i]!);
+  const corner = posture(0.4, 0);
+  const step = (id: string, q: readonly number[], blend_m: number): MoveStep => ({
+    ...move(id, 0),
+    target: { q },
+    blend_m,
+  });
+  const rounded: Program = {
+    ...emptyProgram(gp8.id),
+    steps: [step("a", corner, 0.004), step("b", posture(0.4, 0.4), 0)],
+  };
+  const question = { program: rounded, robot: gp8, start_rad: Float64Array.from(gp8.home_rad) };
+  const inform = { id: "inform", name: "INFORM", emit: () => ({ kind: "emitted", files: [] }) } as unknown as Dialect;
+  /** How near the flange comes to the corner [m]. */
+  function nearest_m(asked: JobQuestion): number {
+    const { plan } = prepareJob(asked);
+    const q = new Float64Array(6);
+    const at = flangePose(gp8.arm, corner).position;
+    let least_m = Infinity;
+    for (let t_s = 0; t_s <= plan!.duration_s; t_s += 0.002) {
+      samplePlan(plan!, t_s, q);
+      least_m = Math.min(least_m, distance(flangePose(gp8.arm, q).position, at));
+    }
+    return least_m;
+  }
+
+  test("steps that are sent one by one stop at each point", () => {
+    expect(nearest_m(question)).toBeLessThan(1e-4);
+  });
+  test("a text rounds as its language does: INFORM makes PL=1 of 4 mm, which is 12.5 mm", () => {
+    const own_m = nearest_m({ ...question, dialect: { ...inform, id: "krl" } });
+    expect(nearest_m({ ...question, dialect: inform }) / own_m).toBeCloseTo(12.5 / 4, 1);
+  });
+  test("what lies in the sharp corner, and beside the planned curve, makes the run's check red", () => {
+    const at = flangePose(gp8.arm, corner).position;
+    const cell = {
+      worldFromBase: pose<"world", "base">(),
+      objects: [
+        { id: "pin", name: "Pin", worldFromObject: pose<"world", "object">(at), mesh: boxMesh([0.004, 0.004, 0.004]) },
+      ],
+      tool: { name: "Tip", mesh: boxMesh([0.001, 0.001, 0.001]) },
+      allowedPairs: ["link 4", "link 5", "link 6"].map(link => [link, "pin"] as const),
+      shapeError_m: 0,
+    };
+    const wide = { ...rounded, steps: [step("a", corner, 0.1), step("b", posture(0.4, 0.4), 0)] };
+    const codes = (asked: Omit<JobQuestion, "robot" | "start_rad">): readonly string[] =>
+      prepareJob({ ...question, ...asked }).bad.map(({ code }) => code);
+    expect(codes({ program: wide, cell, dialect: inform })).toEqual(["collision.corner"]);
+    expect(codes({ program: wide, cell })).toEqual(["collision.contact", "collision.contact"]);
+  });
 });

@@ -1,9 +1,12 @@
 import {
   checkProgram,
+  cornerRuleOf,
   identity,
   linkSolids,
   planProgram,
   withBranches,
+  withRuledCorners,
+  withStops,
   type CarriedPart,
   type CellGeometry,
   type Dialect,
@@ -54,10 +57,24 @@ export interface PreparedJob {
  */
 export type PrepareJob = (question: JobQuestion) => Promise<PreparedJob>;
 
-/** Plans, checks and writes a program. Pure. */
-export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dialect }: JobQuestion): PreparedJob {
+/**
+ * A program as the robot will carry it out: steps that are sent end at each point, and a text rounds its corners as its
+ * language does.
+ */
+function asSent({ program, robot, worldFromBase, dialect }: JobQuestion): Program {
+  if (!dialect) return withStops(program);
+  const rule = cornerRuleOf(dialect.id);
+  if (rule === undefined) return program;
+  const { tools, frames } = program;
+  return withRuledCorners(program, robot, rule, { tools, frames, ...(worldFromBase ? { worldFromBase } : {}) });
+}
+
+/** Plans, checks and writes a program. The plan is of what the robot will do with it. Pure. */
+export function prepareJob(question: JobQuestion): PreparedJob {
+  const { program, robot, start_rad, worldFromBase, cell, dialect } = question;
   const from = { start_rad, ...(worldFromBase ? { worldFromBase } : {}) };
-  const answer = planProgram(program, robot, from);
+  const sent = asSent(question);
+  const answer = planProgram(sent, robot, from);
   const keptClearOf = withLinks(
     cell ?? {
       worldFromBase: worldFromBase ?? identity(),
@@ -67,7 +84,7 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
     },
     robot,
   );
-  const { verdict, bad, carried } = checkProgram(program, robot, { ...from, cell: keptClearOf });
+  const { verdict, bad, carried } = checkProgram(sent, robot, { ...from, cell: keptClearOf });
   const findings = verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(
     withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),

@@ -1,7 +1,7 @@
 import {
   CellCollider,
   marginOf,
-  robotAndCell,
+  keptApart,
   PathValidator,
   type CarriedPart,
   type CellGeometry,
@@ -60,7 +60,7 @@ export function clearOf(
   let asked_rad: ArrayLike<number> = robot.home_rad;
   const checker = new PathValidator(collider, robot.arm, {
     margin_m: wanted_m,
-    keepsMargin: robotAndCell,
+    keepsMargin: keptApart,
     excused: each => parts.excuses(each, asked_rad),
   });
   const inTheWay = (q_rad: ArrayLike<number>): Contact | null => {

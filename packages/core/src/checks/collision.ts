@@ -1,16 +1,15 @@
 import { CellCollider, clearance as noClearance, robotAndCell } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
-import { certifyMotion, type MotionCertificate } from "../collision/certificate.ts";
-import { ClearanceMaps } from "../collision/clearance-map.ts";
-import { checkMotion, type MotionVerdict } from "../collision/motion.ts";
-import type { SerialArm } from "../model/arm.ts";
+import type { MotionVerdict } from "../collision/motion.ts";
 import { resolveMove, type Move } from "../trajectory/moves.ts";
 import type { MotionSegment, Segment } from "../trajectory/plan.ts";
 import { RunPlanner } from "../trajectory/run.ts";
 import { sampleSegment } from "../trajectory/sample.ts";
-import { motionOf, type SegmentCertificate } from "./certificate.ts";
+import type { SegmentCertificate } from "./certificate.ts";
+import { cornersOf, firstInCorner, type InCorner, type PassedCorner } from "./corners.ts";
 import { freshStepIds } from "../program/edit.ts";
 import { GraspedParts, type CarriedPart, type Stretch } from "./grasped-parts.ts";
+import { Prover } from "./prover.ts";
 import type { MoveStep } from "../program/program.ts";
 import type { Repair } from "./verdict.ts";
 import { raised } from "./repairs.ts";
@@ -19,7 +18,7 @@ import { motions, seconds, type CheckScene } from "./scene.ts";
 
 export interface CollisionOptions {
   readonly cell: CellGeometry;
-  /** Distance the robot keeps from the cell [m]; 0 asks for no contact only. Its own parts must not touch. */
+  /** Distance the robot keeps from the cell and its own parts from each other, as `marginOf` says [m]. */
   readonly margin_m: number;
   /** Receives the proof of every motion that is clear. */
   readonly certificates?: SegmentCertificate[];
@@ -60,11 +59,18 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
   const unproven = new Set<string>();
   const found = new Set<string>();
   const all = [...motions(scene)];
+  const corners = cornersOf(scene);
+  const rounded: { readonly corner: PassedCorner; readonly found: InCorner; readonly held: string | undefined }[] = [];
+  let before: readonly Stretch[] = [];
   let repaired = 0;
   let i = 0;
   for (const segment of scene.layout.plan.segments) {
     const stretches = parts.enter(segment);
     if (segment !== all[i]) continue;
+    const corner = corners.get(segment);
+    const inCorner = corner && firstInCorner(corner, prover, before.at(-1), stretches[0]);
+    if (corner !== undefined && inCorner !== undefined) rounded.push({ corner, found: inCorner, held: parts.held });
+    before = stretches;
     if (options.cancelled?.() === true) {
       for (const rest of all.slice(i)) unproven.add(rest.step);
       break;
@@ -96,6 +102,9 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
       repairs,
     });
   }
+  for (const { corner, found: inCorner, held } of rounded)
+    if (!found.has(corner.step) && !found.has(corner.next))
+      addCorner(scene, corner, inCorner, sentenceOf(inCorner.contact, cell, held, corner.at_s, margin_m));
   const { taken, missed, carried } = parts;
   return {
     clearance_m:
@@ -109,8 +118,31 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
   };
 }
 
+type Contact = Extract<MotionVerdict, { kind: "contact" }>;
+
+/** What a corner may come too near to, where neither the motion before it nor the one behind does as planned. */
+function addCorner(
+  scene: CheckScene,
+  { step, at_s }: PassedCorner,
+  { contact, isFreeSharp }: InCorner,
+  what: string,
+): void {
+  const move = scene.layout.moves.get(step)!.step;
+  scene.add(step, "bad", {
+    code: "collision.corner",
+    value: contact.distance_m,
+    limit: contact.margin_m,
+    unit: "m",
+    at_s,
+    sentence: `${what} The controller may round this corner otherwise than planned: use zone 0, or leave more room.`,
+    repairs: isFreeSharp
+      ? [{ kind: "zone", sentence: "Stop at the point: zone 0.", replace: { ...move, blend_m: 0, blend_ratio: 0 } }]
+      : [],
+  });
+}
+
 function sentenceOf(
-  contact: Extract<MotionVerdict, { kind: "contact" }>,
+  contact: Contact,
   cell: CellGeometry,
   held: string | undefined,
   at_s: number,
@@ -122,10 +154,10 @@ function sentenceOf(
   const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
   const b = nameOf(other, cell);
   const shape_m = contact.margin_m - Math.max(0, asked_m) - (cell.placeError_m ?? 0);
-  const parts = [
-    ...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []),
-    ...placeErrors(cell),
-  ];
+  const parts =
+    contact.between === "self"
+      ? []
+      : [...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []), ...placeErrors(cell)];
   const because = parts.map(part => `, ${part}`).join("");
   return contact.margin_m > 0 && contact.distance_m > 0
     ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}${because}.`
@@ -153,62 +185,6 @@ export function keptSentence(cell: CellGeometry, asked_m: number): string {
   return `Between the robot and what stands around it ${mm(total_m)} are kept: ${each.join(", ")}.`;
 }
 
-/** Proves single motions; keeps the working memory of one collider. */
-class Prover {
-  private readonly collider: CellCollider;
-  private readonly margin_m: number;
-  private readonly rates: Float64Array;
-  private readonly maps: ClearanceMaps;
-  constructor(collider: CellCollider, margin_m: number, arm: SerialArm) {
-    this.collider = collider;
-    this.margin_m = margin_m;
-    this.rates = new Float64Array(arm.joints.length);
-    this.maps = new ClearanceMaps(collider, arm);
-  }
-
-  /** The whole motion with everything watched, or stretch by stretch as given. */
-  prove(
-    segment: MotionSegment,
-    stretches: readonly Stretch[] = [
-      { from: 0, to: segment.duration_s, watched: () => true, keepsMargin: robotAndCell },
-    ],
-  ): MotionVerdict {
-    const motion = motionOf(segment, this.rates);
-    let checks = 0;
-    for (const { from, to, ...pairs } of stretches) {
-      const verdict = checkMotion(this.collider, motion, from, to, {
-        margin_m: this.margin_m,
-        maps: this.maps,
-        ...pairs,
-      });
-      if (verdict.kind !== "clear") return verdict;
-      checks += verdict.checks;
-    }
-    return { kind: "clear", checks };
-  }
-
-  /** As `prove`, and what proves it; slower, because nothing that was found before is used. */
-  certify(segment: MotionSegment, stretches: readonly Stretch[]): ReturnType<typeof certifyMotion> {
-    const motion = motionOf(segment, this.rates);
-    const proven: MotionCertificate[] = [];
-    let checks = 0;
-    for (const { from, to, ...pairs } of stretches) {
-      const { verdict, certificate } = certifyMotion(this.collider, motion, from, to, {
-        margin_m: this.margin_m,
-        ...pairs,
-      });
-      if (verdict.kind !== "clear" || certificate === null) return { verdict, certificate: null };
-      checks += verdict.checks;
-      proven.push(certificate);
-    }
-    const clearance_m = Math.min(...proven.map(each => each.clearance_m));
-    return {
-      verdict: { kind: "clear", checks },
-      certificate: { from: 0, to: segment.duration_s, clearance_m, pieces: proven.flatMap(({ pieces }) => pieces) },
-    };
-  }
-}
-
 /** What a held part rests on does not count as long as it may touch it or be near. */
 function leastClearance(
   collider: CellCollider,
@@ -233,7 +209,7 @@ function leastClearance(
       const t_s = due_s - passed_s;
       const { watched, keepsMargin } = stretches.find(({ to }) => t_s <= to) ?? stretches.at(-1)!;
       sampleSegment(segment, t_s, q);
-      collider.clearance(q, least, near, pair => watched(pair) && keepsMargin(pair));
+      collider.clearance(q, least, near, pair => robotAndCell(pair) && watched(pair) && keepsMargin(pair));
       least = Math.min(least, near.distance_m);
       if (!(period_s > 0)) break;
     }

@@ -1,4 +1,4 @@
-import { CellCollider, robotAndCell } from "../collision/cell-collider.ts";
+import { CellCollider, keptApart } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
 import { findPath, type PathOptions, type PathOutcome } from "../planning/find-path.ts";
 import { PathValidator } from "../planning/path-validator.ts";
@@ -58,7 +58,7 @@ export function detour(program: Program, step: string, robot: Robot, options: De
   for (const margin of margin_m < COMFORTABLE_M ? [COMFORTABLE_M, margin_m] : [margin_m]) {
     const collider = new CellCollider(cell, robot.arm);
     collider.allowContactsAt(robot.home_rad);
-    const checker = new PathValidator(collider, robot.arm, { margin_m: margin, keepsMargin: robotAndCell });
+    const checker = new PathValidator(collider, robot.arm, { margin_m: margin, keepsMargin: keptApart });
     answer = findPath(checker, ends.from_rad, ends.to_rad, options);
     if (answer.kind === "cancelled") return { kind: "cancelled" };
     if (answer.kind !== "found") continue;

@@ -3,7 +3,8 @@ import type { Vector3 } from "../spatial/vector.ts";
 
 /**
  * What a way out changes. "target": the point is moved; "edge": points are put back onto the edge they were traced on;
- * "part": what it was taught on; "base": the robot.
+ * "part": what it was taught on; "base": the robot; "zone": the robot stops
+ * at the point.
  */
 export type RepairKind =
   | "branch"
@@ -16,6 +17,7 @@ export type RepairKind =
   | "joint"
   | "joint-move"
   | "detour"
+  | "zone"
   | "slower";
 
 /** A way out that a person can apply with one click: the step as it would be, and what else has to change with it. */
@@ -27,7 +29,9 @@ export interface Repair extends ProgramChange {
 }
 
 export interface Finding {
-  /** "reach.too-far", "limits.joint", "speed.joint", "branch.jump", "collision.contact", … */
+  /**
+   * "reach.too-far", "limits.joint", "speed.joint", "branch.jump", "collision.contact", "collision.corner", …
+   */
   readonly code: string;
   /** Counts from 1. */
   readonly joint?: number;

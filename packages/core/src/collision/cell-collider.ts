@@ -46,7 +46,17 @@ export interface SolidPair {
   readonly tooNear: Int32Array;
   /** Grows each time the pair is in contact; pairs that meet often are asked first. */
   hits: number;
+  /**
+   * Of two parts of the robot: the distance they may be asked to keep at most [m], since they are nearer by design than
+   * anybody may ask for; undefined while no posture known to be free was learnt.
+   */
+  room_m: number | undefined;
 }
+
+/** Of the distance that two parts of a robot have where it is known to be free, this much may be asked for. */
+const OWN_SHARE = 0.5;
+/** Parts of a robot that are farther apart there may be asked to keep whatever is wanted [m]. */
+const OWN_FAR_M = 0.5;
 
 /**
  * Answers questions about contact and clearance in one cell. It owns its working memory: one collider a worker.
@@ -65,6 +75,7 @@ export class CellCollider {
   readonly #bodies: Body[];
   readonly #allowed = new Set<string>();
   readonly #decided = new Set<string>();
+  readonly #rooms = new Map<string, number>();
   readonly #worldFromBase: Pose<"world", "base">;
   readonly #baseFromLinks: Pose<"base", "link">[];
   readonly #worldFromLink: Pose = identity();
@@ -300,8 +311,9 @@ export class CellCollider {
   }
 
   /**
-   * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints.
-   * Call it at a posture known to be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
+   * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints; and
+   * no two parts of it are asked to keep more than half the distance that they have there. Call it at a posture known to
+   * be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
    *
    * @returns the pairs that were learnt.
    */
@@ -310,7 +322,14 @@ export class CellCollider {
       ({ a, b }) => this.#isRobot(a) && this.#isRobot(b) && !this.#decided.has(keyOf(a, b)),
     );
     for (const { a, b } of learnt) this.#allowed.add(keyOf(a, b));
-    if (learnt.length > 0) this.#arrange();
+    for (const pair of this.#pairs) {
+      if (pair.contact.between !== "self") continue;
+      const key = keyOf(pair.contact.a, pair.contact.b);
+      const far_m = this.distanceOf(pair, OWN_FAR_M);
+      const room_m = far_m === Infinity ? Infinity : OWN_SHARE * far_m;
+      this.#rooms.set(key, Math.min(room_m, this.#rooms.get(key) ?? Infinity));
+    }
+    this.#arrange();
     return learnt;
   }
 
@@ -392,6 +411,7 @@ export class CellCollider {
         const before = known.get(key);
         if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
         const same = before?.a === a && before.b === b;
+        if (same) before.room_m = this.#rooms.get(key);
         this.#pairs.push(
           same
             ? before
@@ -406,6 +426,7 @@ export class CellCollider {
                 witness: new Int32Array(2).fill(-1),
                 tooNear: new Int32Array(2).fill(-1),
                 hits: 0,
+                room_m: this.#rooms.get(key),
               },
         );
       }
@@ -415,6 +436,9 @@ export class CellCollider {
 
 /** Pairs of the robot, its tool or what it holds with what stands around it. */
 export const robotAndCell = ({ a, b }: SolidPair): boolean => (a.carrier === WORLD) !== (b.carrier === WORLD);
+
+/** The same, and parts of the robot among each other: what it holds may be near to what holds it. */
+export const keptApart = (pair: SolidPair): boolean => robotAndCell(pair) || pair.contact.between === "self";
 
 const HERE: Pose = identity();
 const keyOf = (a: string, b: string): string => (a < b ? `${a}\n${b}` : `${b}\n${a}`);

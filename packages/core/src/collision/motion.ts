@@ -35,6 +35,11 @@ export interface MotionOptions {
   readonly watched?: (pair: SolidPair) => boolean;
   /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
   readonly keepsMargin?: (pair: SolidPair) => boolean;
+  /**
+   * How far each joint may be from the motion in either direction [rad]: what is proven clear is then clear for all
+   * postures so near to it.
+   */
+  readonly slack_rad?: ArrayLike<number>;
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
@@ -86,7 +91,12 @@ export function checkMotion(
   const pairs = collider.pairs;
   const rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
-  const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0));
+  const { slack_rad } = options;
+  const margins = pairs.map(
+    pair =>
+      (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0) +
+      (slack_rad === undefined ? 0 : relativeRate(pair, slack_rad)),
+  );
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i).filter(i => watched(pairs[i]!)) }];
   let checks = 0;
@@ -192,16 +202,28 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
 export type CellErrors = Pick<CellGeometry, "shapeError_m" | "placeError_m">;
 
 /**
+ * Two parts of a robot keep at least this [m], where its design leaves it: a robot follows its path to a few millimetres,
+ * and a guard sees it now and then.
+ */
+export const OWN_KEPT_M = 0.005;
+
+/**
  * Distance a pair must keep when `margin_m` is wanted [m]: the margin; between a link and an object, held or standing,
  * the shape error of the robot once, because only the link is drawn from fitted shapes; and between what the arm moves
  * and an object that stands, how far the robot may be from where it is drawn (row T-64).
  *
- * Two parts of the robot get no shape error. Twice the error (40 mm on many arms) is more than the maker leaves between
- * links that fold past each other, so it would stop postures that every arm takes daily; and where drawn links do come
- * close, it is the maker's joint limits and `allowContactsAt` that speak for the true castings. Tools are drawn as they
- * are.
+ * Two parts of the robot keep the margin and never less than `OWN_KEPT_M`, but no more than half of what they have where
+ * the robot is known to be free (`allowContactsAt`). They get no shape error: twice the error (40 mm on many arms) is
+ * more than the maker leaves between links that fold past each other, so it would stop postures that every arm takes
+ * daily; and where drawn links do come close, it is the maker's joint limits and `allowContactsAt` that speak for the
+ * true castings. Tools are drawn as they are.
  */
-export function marginOf({ a, b }: SolidPair, margin_m: number, { shapeError_m, placeError_m }: CellErrors): number {
+export function marginOf(
+  { a, b, contact, room_m }: SolidPair,
+  margin_m: number,
+  { shapeError_m, placeError_m }: CellErrors,
+): number {
+  if (contact.between === "self" && room_m !== undefined) return Math.min(Math.max(margin_m, OWN_KEPT_M), room_m);
   const drawnAndExact = (a.kind === "link" && b.kind === "object") || (b.kind === "link" && a.kind === "object");
   const movedAndStanding =
     (a.carrier === WORLD && a.kind === "object") !== (b.carrier === WORLD && b.kind === "object");

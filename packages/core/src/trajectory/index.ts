@@ -2,6 +2,7 @@ export * from "./plan.ts";
 export * from "./laws.ts";
 export * from "./moves.ts";
 export * from "./sample.ts";
+export * from "./corner-rules.ts";
 export * from "./stop.ts";
 export * from "./planner.ts";
 export * from "./run-timing.ts";

@@ -3,8 +3,18 @@ import type { Robot } from "../model/robot.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { distance, type Vector3 } from "../spatial/vector.ts";
 import { Follower } from "./follow.ts";
-import { curvePath, geometryScratch, posePoint, poseTwist, TURN_M_PER_RAD, type PosePath } from "./geometry.ts";
+import {
+  curvePath,
+  geometryScratch,
+  linePath,
+  posePoint,
+  poseTwist,
+  TURN_M_PER_RAD,
+  type Line,
+  type PosePath,
+} from "./geometry.ts";
 import { GoalFinder, type Goal } from "./goal.ts";
+import type { MoveStep } from "../program/program.ts";
 import { HermitePath, type Stop } from "./hermite-path.ts";
 import type { Move } from "./moves.ts";
 import { posePathOf, SHORTEST_M } from "./pose-paths.ts";
@@ -23,6 +33,31 @@ export type RunStop =
       readonly limit_rad: number;
     }
   | { readonly kind: "straight-circle"; readonly move: number };
+
+/**
+ * A corner of a run, and all that lies between its sharp form and the widest one that it may be rounded to: the chords
+ * from `u` of the widest way before its point to `u` of the widest way behind it, `u` from 0 (the point) to 1.
+ */
+export interface CornerSweep {
+  /** The move that ends in the corner, counted from 0 within the run. */
+  readonly move: number;
+  /**
+   * Postures along a chord, as many for each `u` [rad]; joints go straight from one to the next. undefined where the
+   * arm does not get there without leaving its posture, as no controller does.
+   */
+  chord(u: number): readonly Float64Array[] | undefined;
+}
+/** What a corner may be rounded as, beside what its step says; the step is that before the corner. */
+export type OtherCorners = (
+  step: MoveStep,
+  shorterWay_m: number,
+) => readonly Pick<MoveStep, "blend_m" | "blend_ratio">[];
+
+/** Steps in which the arm is followed from the point of a corner to where its widest form begins. */
+const CORNER_STEPS = 4;
+/** Postures on the chord of a corner of two TCP paths are so far apart at most [m]: joints between them go straight. */
+const CHORD_NODES_M = 0.02;
+const MOST_CHORD_NODES = 40;
 
 /** Geometry of one move of a run. */
 interface Leg {
@@ -170,9 +205,110 @@ export class RunPath {
     );
   }
 
-  /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
-  private corner(leg: Leg, next: Leg): { readonly leave: number; readonly join: number } {
-    const { blend_m: blend, blend_ratio: ratio = 0 } = leg.move.step;
+  /**
+   * The corners of a run with all that controllers may make of them; none where the run cannot be laid out.
+   *
+   * @param ends_rad  postures near the points of the moves, one a move; where TCP paths meet, the arm is followed from
+   *   there.
+   */
+  corners(
+    moves: readonly Move[],
+    q0: Float64Array,
+    ends_rad: readonly Float64Array[],
+    others: OtherCorners,
+  ): CornerSweep[] {
+    const legs: Leg[] = [];
+    if (this.layLegs(moves, q0, legs) !== undefined) return [];
+    const found: CornerSweep[] = [];
+    for (let i = 0; i + 1 < legs.length; i++) {
+      const leg = legs[i]!;
+      const next = legs[i + 1]!;
+      if (this.smooth(leg, next)) continue;
+      const shorter_m = Math.min(this.chordOf(moves, i), this.chordOf(moves, i + 1));
+      let { leave, join } = this.corner(leg, next);
+      for (const other of others(leg.move.step, shorter_m)) {
+        const wider = this.corner(leg, next, other);
+        leave = Math.min(leave, wider.leave);
+        join = Math.max(join, wider.join);
+      }
+      if (leg.length - leave <= SHORTEST_M && join <= SHORTEST_M) continue;
+      const chord = this.chords(leg, next, leg.length - leave, join, ends_rad[i]!);
+      if (chord !== undefined) found.push({ move: i, chord });
+    }
+    return found;
+  }
+
+  /** From the point before a move to its own [m]. */
+  private chordOf(moves: readonly Move[], i: number): number {
+    const { flangeFromTcp, baseFromTcp } = moves[i]!;
+    return distance(
+      compose(moves[i - 1]?.baseFromFlange ?? this.startFlange, flangeFromTcp).position,
+      baseFromTcp.position,
+    );
+  }
+
+  private chords(
+    leg: Leg,
+    next: Leg,
+    before: number,
+    behind: number,
+    near_rad: Float64Array,
+  ): CornerSweep["chord"] | undefined {
+    const corner = (leg.q1 ?? next.q0 ?? near_rad).slice();
+    if (leg.path !== undefined && !this.path.reach(leg.path, leg.move.tcpFromFlange, leg.length, corner))
+      return undefined;
+    const along = (of: Leg, from: number, to: number): Float64Array | undefined => {
+      if (of.path === undefined) return this.onJointLeg(of, to);
+      const q = corner.slice();
+      for (let k = 0; k <= CORNER_STEPS; k++) {
+        const s = from + ((to - from) * k) / CORNER_STEPS;
+        if (!this.path.reach(of.path, of.move.tcpFromFlange, s, q)) return undefined;
+      }
+      return q;
+    };
+    const sameTool = leg.move.step.target.tool === next.move.step.target.tool;
+    const tcpChord =
+      leg.path === undefined || next.path === undefined || !sameTool
+        ? undefined
+        : (u: number): Line => {
+            const a: Pose = identity();
+            const b: Pose = identity();
+            posePoint(leg.path!, leg.length - u * before, a, this.scratch);
+            posePoint(next.path!, u * behind, b, this.scratch);
+            return linePath(a, b);
+          };
+    const pieces =
+      tcpChord === undefined
+        ? 1
+        : Math.min(MOST_CHORD_NODES, Math.max(1, Math.ceil(tcpChord(1).length / CHORD_NODES_M)));
+    return u => {
+      const a = along(leg, leg.length, leg.length - u * before);
+      const b = along(next, 0, u * behind);
+      if (a === undefined || b === undefined) return undefined;
+      if (tcpChord === undefined) return [a, b];
+      const line = tcpChord(u);
+      const nodes = [a];
+      const q = a.slice();
+      for (let k = 1; k < pieces; k++) {
+        if (!this.path.reach(line, leg.move.tcpFromFlange, (line.length * k) / pieces, q)) return undefined;
+        nodes.push(q.slice());
+      }
+      nodes.push(b);
+      return nodes;
+    };
+  }
+
+  /**
+   * How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet.
+   *
+   * @param as  how it is rounded; as the step says without it.
+   */
+  private corner(
+    leg: Leg,
+    next: Leg,
+    as: Pick<MoveStep, "blend_m" | "blend_ratio"> = leg.move.step,
+  ): { readonly leave: number; readonly join: number } {
+    const { blend_m: blend, blend_ratio: ratio = 0 } = as;
     // A move to where the robot stands has no direction a curve could leave in.
     if (leg.length <= SHORTEST_M || next.length <= SHORTEST_M) return { leave: leg.length, join: 0 };
     if (leg.path !== undefined && next.path !== undefined) {

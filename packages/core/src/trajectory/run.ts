@@ -6,7 +6,7 @@ import { GoalFinder } from "./goal.ts";
 import { Follower } from "./follow.ts";
 import { timeJointLeg } from "./joint-leg.ts";
 import type { Move } from "./moves.ts";
-import { RunPath, type RunStop } from "./run-path.ts";
+import { RunPath, type CornerSweep, type RunStop } from "./run-path.ts";
 import { RunTimer, type TimedRun } from "./run-timing.ts";
 
 /** TCP distance [m] between the plan and the commanded straight, circular or spline path. */
@@ -46,6 +46,11 @@ export class RunPlanner {
     if (beyondLimits || answer.kind === "stopped") return answer;
     const stop = this.firstBeyond(answer.run);
     return stop === undefined ? answer : { kind: "stopped", stop };
+  }
+
+  /** What lies between sharp and widest at each corner of a run that was planned; see `RunPath.corners`. */
+  corners(...of: Parameters<RunPath["corners"]>): CornerSweep[] {
+    return this.path.corners(...of);
   }
 
   private lay(moves: readonly Move[], q0: Float64Array): RunAnswer {

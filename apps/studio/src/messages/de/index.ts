@@ -4,6 +4,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
@@ -26,6 +27,7 @@ export const catalogue: Translation<typeof en> = {
   ...controlWords,
   ...recordsWords,
   direct,
+  editor,
   people: peopleWords,
   fleet: fleetWords,
   headset,

@@ -4,7 +4,7 @@ import {
   suggestBase,
   type BaseField,
   learnPairs,
-  robotAndCell,
+  keptApart,
   robotById,
   escapeSelfCollision,
   PathValidator,
@@ -81,7 +81,7 @@ export function planTask(
       const ways = ROOMS_M.map(
         margin_m => () =>
           escapeSelfCollision(
-            new PathValidator(collider, robot.arm, { margin_m, keepsMargin: robotAndCell }),
+            new PathValidator(collider, robot.arm, { margin_m, keepsMargin: keptApart }),
             task.from_rad,
             task.to_rad,
             options,

@@ -49,6 +49,7 @@ const EFFORT: Partial<Record<RepairKind, number>> = {
   target: 0.3,
   "joint-move": 0.4,
   detour: 0.8,
+  zone: 0.3,
 };
 /** Moving the robot is more than moving a part by as much. */
 const BASE_EFFORT = 0.5;
@@ -62,8 +63,9 @@ const SAME_RAD = 1e-6;
 
 /** Ways out that the check itself offered, without the turns and shifts that are searched for here more finely. */
 export function offered({ finding, others }: RepairScene): readonly Candidate[] {
-  const coarse: readonly (RepairKind | undefined)[] =
-    finding.code === "collision.contact" ? [] : ["spin", "tilt", "target", "part", "base"];
+  const coarse: readonly (RepairKind | undefined)[] = finding.code.startsWith("collision.")
+    ? []
+    : ["spin", "tilt", "target", "part", "base"];
   const edges = others.flatMap(({ repairs }) => repairs.filter(({ kind }) => kind === "edge"));
   return [...finding.repairs, ...edges].flatMap((repair): Candidate[] => {
     const { kind } = repair;

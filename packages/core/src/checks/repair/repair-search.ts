@@ -179,7 +179,7 @@ export class RepairSearch {
       ["", offered(scene)],
       ["", jointInside(scene)],
       ...(causeOf(finding) === "speed" ? [] : this.turnsAndShifts(scene, nameOf)),
-      ...(finding.code === "collision.contact" ? [["A way round", this.detours(step)] as const] : []),
+      ...(finding.code.startsWith("collision.") ? [["A way round", this.detours(step)] as const] : []),
     ];
     const found: ProvenRepair[] = [];
     for (const [name, candidates] of kinds) {

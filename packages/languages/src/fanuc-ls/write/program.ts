@@ -1,5 +1,6 @@
 import {
   compose,
+  cornerShare,
   everyStep,
   inverse,
   pose,
@@ -420,9 +421,8 @@ export class ProgramWriter extends StepWriter {
   private term(step: MoveStep, next: Step | undefined): string {
     const { blend_m, blend_ratio = 0 } = step;
     if (step.until !== undefined || next?.type !== "move" || !(blend_m > 0 || blend_ratio > 0)) return "FINE";
-    const whole_m = this.place.blend_m({ ...step, blend_m: 0, blend_ratio: 1 }, this.before, next);
-    const share = blend_ratio > 0 ? blend_ratio : whole_m > 0 ? blend_m / whole_m : 1;
-    return `CNT${Math.min(100, Math.max(1, Math.round(100 * share)))}`;
+    const half_m = this.place.blend_m({ ...step, blend_m: 0, blend_ratio: 1 }, this.before, next);
+    return `CNT${Math.round(100 * cornerShare(step, 2 * half_m))}`;
   }
 
   private search(step: MoveStep): string {

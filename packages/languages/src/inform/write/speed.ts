@@ -1,4 +1,4 @@
-import type { MoveStep, Speed } from "@twincell/core";
+import { nearestLevel, type MoveStep, type Speed } from "@twincell/core";
 import { fixed } from "./location.ts";
 
 /** Limits of VJ= [%] and V= [mm/s]. */
@@ -27,16 +27,8 @@ export function accelerationText({ acceleration }: MoveStep): string {
   return percent === 100 ? "" : ` ACC=${percent} DEC=${percent}`;
 }
 
-/** Where corners begin at the levels 1 … 4 as delivered [m]. */
-const LEVELS_M = [0.0125, 0.025, 0.05, 0.1];
-
 /** Straight paths take the radius itself, the others the level that is nearest. */
 export function cornerText(path: MoveStep["path"], corner_m: number): string {
   if (!(corner_m > 0)) return " PL=0";
-  if (path === "lin") return ` CR=${fixed(Math.max(0.1, corner_m * 1000), 1)}`;
-  const nearest = LEVELS_M.reduce(
-    (best, each, i) => (Math.abs(each - corner_m) < Math.abs(LEVELS_M[best]! - corner_m) ? i : best),
-    0,
-  );
-  return ` PL=${nearest + 1}`;
+  return path === "lin" ? ` CR=${fixed(Math.max(0.1, corner_m * 1000), 1)}` : ` PL=${nearestLevel(corner_m)}`;
 }

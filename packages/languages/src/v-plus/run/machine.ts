@@ -1,5 +1,6 @@
 import {
   SignalTable,
+  speedCorner,
   type Executed,
   type MoveStep,
   type Pose,
@@ -53,7 +54,7 @@ export class Machine {
     this.state.onRead = () => {
       this.idle = 0;
     };
-    this.continuousPath_m = step => continuousPath(robot, step);
+    this.continuousPath_m = step => speedCorner(robot, step);
   }
 
   /** @throws {TextError} where the text cannot be executed further. */
@@ -176,6 +177,19 @@ export class Machine {
         state.setBase(x!, y!, z!, turn!);
         break;
       }
+      default:
+        return yield* this.setting(statement, stack);
+    }
+    yield* this.note({ line: statement.line });
+  }
+
+  /** How the motions that follow are carried out. */
+  private *setting(
+    statement: Exclude<Statement, { kind: "assign" | "set" | "here" | "decompose" | "tool" | "base" }>,
+    stack: Frame[],
+  ): Generator<Executed, void> {
+    const { state } = this;
+    switch (statement.kind) {
       case "config":
         state.configure(statement.word);
         break;
@@ -193,6 +207,36 @@ export class Machine {
         break;
       case "signal":
         return yield* this.set(statement);
+      default:
+        return yield* this.action(statement, stack);
+    }
+    yield* this.note({ line: statement.line });
+  }
+
+  /** What the robot does, and where the program goes on. */
+  private *action(
+    statement: Exclude<
+      Statement,
+      {
+        kind:
+          | "assign"
+          | "set"
+          | "here"
+          | "decompose"
+          | "tool"
+          | "base"
+          | "config"
+          | "speed"
+          | "duration"
+          | "path"
+          | "break"
+          | "signal";
+      }
+    >,
+    stack: Frame[],
+  ): Generator<Executed, void> {
+    const { state } = this;
+    switch (statement.kind) {
       case "accel": {
         const percent = number(statement.percent, state);
         if (!(percent > 0))
@@ -378,18 +422,3 @@ const isOneSignal = (
   condition.args[0] !== undefined;
 
 const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
-
-/**
- * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this
- * one begins to slow down, v² / 2a before its end, where a takes the arm from full speed to rest in its ramp.
- */
-function continuousPath(robot: Robot, { speed }: MoveStep): number {
-  const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
-  const full_mps = robot.maxTcpSpeed_mps;
-  const speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * full_mps : SLOW_MPS;
-  return Math.min((speed_mps ** 2 * ramp_s) / (2 * full_mps), LARGEST_CORNER_M);
-}
-/** A motion of given duration says nothing of its speed: it is taken for a slow one. */
-const SLOW_MPS = 0.25;
-/** A corner is never cut by more: at full speed the rule above asks for more than most motions are long. */
-const LARGEST_CORNER_M = 0.05;

@@ -81,6 +81,9 @@ export const saidByChecks: Sentences = {
     "{a} kommt {b} bei {time} auf {distance} nahe; der Sicherheitsabstand ist {margin}, davon {shape} für den " +
     "Formfehler.",
   "{a} touches {b} at {time}.": "{a} berührt {b} bei {time}.",
+  "{what} The controller may round this corner otherwise than planned: use zone 0, or leave more room.":
+    "{what} Die Steuerung kann diese Ecke anders verschleifen als geplant: Zone 0 nehmen oder mehr Platz lassen.",
+  "Stop at the point: zone 0.": "Am Punkt halten: Zone 0.",
   "{a} would touch {b} at {time}.": "{a} würde {b} bei {time} berühren.",
   "{a} would touch {b}.": "{a} würde {b} berühren.",
   "Something would be touched.": "Etwas würde berührt.",
