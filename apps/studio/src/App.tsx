@@ -57,6 +57,7 @@ const RobotQuestion = lazy(() => import("./features/robots/RobotQuestion.tsx"));
 const DhTable = lazy(() => import("./features/robots/DhTable.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
+const Fleet = lazy(() => import("./features/fleet/Fleet.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
@@ -209,6 +210,7 @@ export function App() {
         <Suspense>
           <Cameras />
           <People />
+          <Fleet />
         </Suspense>
         <Files />
         <LessonFile />

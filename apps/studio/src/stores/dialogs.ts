@@ -15,6 +15,7 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "people"
+  | "fleet"
   | "shapes"
   | "run-question"
   | "demonstration"

@@ -4,6 +4,7 @@ import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
+import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
 import { glove } from "./glove.ts";
 import { lesson } from "./lesson.ts";
@@ -29,7 +30,11 @@ export const en = {
   direct,
   editor,
   people: peopleWords,
+<<<<<<< HEAD
   glove,
+=======
+  fleet: fleetWords,
+>>>>>>> ready/plant
   headset,
   lesson,
   offline,
