@@ -33,11 +33,8 @@ export const catalogue: Translation<typeof en> = {
   direct,
   editor,
   people: peopleWords,
-<<<<<<< HEAD
   glove,
-=======
   fleet: fleetWords,
->>>>>>> ready/plant
   headset,
   lesson,
   offline,

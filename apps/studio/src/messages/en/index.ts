@@ -30,11 +30,8 @@ export const en = {
   direct,
   editor,
   people: peopleWords,
-<<<<<<< HEAD
   glove,
-=======
   fleet: fleetWords,
->>>>>>> ready/plant
   headset,
   lesson,
   offline,
