@@ -4,6 +4,7 @@ import type { CellMember } from "../cell/shared-cell.ts";
 import type { Cannot } from "../driver/cannot.ts";
 import {
   falseIdentity,
+  isOwnRobot,
   pose,
   samplePlan,
   unrolled,
@@ -20,6 +21,7 @@ import {
   type Signals,
   type Step,
   type RealController,
+  robotFileOf,
 } from "@twincell/core";
 import {
   createRealController,
@@ -93,6 +95,8 @@ export interface VendorConnection extends RobotConnection, ConnectedRobot<Comman
     readonly robot: string;
     readonly virtual: boolean;
     readonly watchdog: string;
+    /** The robot file of a robot that is in no library, without its meshes: those who look on learn it from here. */
+    readonly robotFile?: unknown;
   };
   /** null where a person stands before a real one. */
   readonly pendant: VirtualPendant | null;
@@ -101,6 +105,8 @@ export interface VendorConnection extends RobotConnection, ConnectedRobot<Comman
 export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
+
+const withoutMeshes = ({ links: _links, ...robot }: Robot): unknown => robotFileOf(robot);
 
 /** Why a robot does not stand on a controller of that kind, by section and kinematics; null where it does. */
 function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
@@ -462,6 +468,7 @@ function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
       brand: own.brand.id,
       robot: own.robot.id,
       virtual: own.virtualPendant !== null,
+      ...(isOwnRobot(own.robot) ? { robotFile: withoutMeshes(own.robot) } : {}),
       watchdog:
         own.adapter.watchdog.kind === "robot"
           ? `The robot stops by itself within ${Math.round(own.adapter.watchdog.within_s * 1000)} ms.`
