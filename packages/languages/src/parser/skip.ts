@@ -1,5 +1,7 @@
-import type { Dialect, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
+import type { Dialect, Interpreted, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
 import { checkedImport } from "../reading/checked-import.ts";
+import { isMissingProgram, leftOutSentence } from "./missing.ts";
+import { NOT_GIVEN } from "./notices.ts";
 import { dryRun } from "./rehearse.ts";
 import { withIdentity } from "./identity.ts";
 
@@ -29,8 +31,7 @@ export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boo
       );
     },
     interpret(text, robot, worldFromBase, options) {
-      if (options?.skipUnknown !== true) return dialect.interpret(text, robot, worldFromBase);
-      return without(text, lines, shorter => {
+      const tried = (shorter: string): Interpreted => {
         const answer = dialect.interpret(shorter, robot, worldFromBase);
         if (answer.kind === "not-understood") return answer;
         // Decisions may hide what is not understood: they are tried both ways.
@@ -44,11 +45,27 @@ export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boo
             }),
         });
         return fault === undefined ? answer : { kind: "not-understood" as const, faults: [fault] };
-      });
+      };
+      if (options?.skipUnknown === true) return without(text, lines, tried);
+      const answer = dialect.interpret(text, robot, worldFromBase);
+      const isAsked = options?.missingPrograms === "leave-out";
+      if (answer.kind === "ready" ? !isAsked : !answer.faults.some(isMissingProgram)) return answer;
+      // All calls that lead nowhere are looked for, so that they can be told at once.
+      const known = without(text, lines, tried, undefined, isMissingProgram);
+      if (known.kind === "not-understood" && !known.faults.every(isMissingProgram)) return known;
+      const missing = known.kind === "ready" ? known.skipped.map(({ fault }) => fault) : known.faults;
+      if (known.kind === "not-understood" || !isAsked) return { kind: "not-understood", faults: missing };
+      const { skipped: _, ...ready } = known;
+      const leftOut = missing.map(fault => ({ ...fault, expected: NOT_GIVEN, sentence: leftOutSentence(fault) }));
+      // The list grows while the text runs: it stays the same one.
+      const notExecuted = (ready.notExecuted ?? []) as TextFault[];
+      notExecuted.push(...leftOut);
+      return { ...ready, notExecuted };
     },
   };
 }
 
+type LeftOut = Skipped & { readonly fault: TextFault };
 type NotUnderstood = { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 function without<A extends { readonly kind: string }>(
@@ -56,10 +73,11 @@ function without<A extends { readonly kind: string }>(
   shapes: LineShapes,
   read: (text: string) => A | NotUnderstood,
   confirm?: (text: string) => A | NotUnderstood,
-): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
+  only?: (fault: TextFault) => boolean,
+): (Omit<A, "skipped"> & { readonly skipped: readonly LeftOut[] }) | NotUnderstood {
   const ends = text.match(/\r\n|\n|\r/g) ?? [];
   const lines = text.split(/\r\n|\n|\r/);
-  const skipped: Skipped[] = [];
+  const skipped: LeftOut[] = [];
   const gone = new Set<number>();
   const blank = shapes.blank ?? (() => "");
   let faults: readonly TextFault[] = [];
@@ -76,22 +94,19 @@ function without<A extends { readonly kind: string }>(
     }
     ({ faults } = understood);
     first ??= faults;
+    if (only !== undefined && !faults.every(only)) return { kind: "not-understood", faults };
     let isShorter = false;
     for (const fault of faults) {
       const at = fault.line - 1;
       const line = lines[at];
       if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
+      // A call that decides more than itself is not left out.
+      if (only !== undefined && [shapes.opens, shapes.parts, shapes.closes].some(shape => shape.test(line))) continue;
       // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
       const from = firstOf(lines, at, shapes);
       const last = Math.max(at, lastOf(lines, from, shapes));
-      skipped.push(
-        told(
-          { ...fault, line: from + 1, column: from === at ? fault.column : 1 },
-          lines[from]!,
-          lines.slice(from, last + 1),
-          shapes,
-        ),
-      );
+      const place = { ...fault, line: from + 1, column: from === at ? fault.column : 1 };
+      skipped.push({ ...told(place, lines[from]!, lines.slice(from, last + 1), shapes), fault });
       for (let i = from; i <= last; i++) {
         lines[i] = blank(lines[i]!);
         gone.add(i);

@@ -1,5 +1,5 @@
 import type { Executed, MoveStep, Pose, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside, type Notices } from "../../parser/index.ts";
+import { TextError, missingProgram, WaitsOutside, type Notices } from "../../parser/index.ts";
 import type { Condition, Instruction, Job, Move, Operand, Position, Source, Statement } from "../read/syntax.ts";
 import { positionKey } from "../read/statement.ts";
 import { poseOf } from "./arm.ts";
@@ -387,9 +387,7 @@ export class Machine {
 
   private call({ job: name, args = [] }: Extract<Statement, { kind: "call" }>, at: TextPlace): void {
     const job = this.source.jobs.get(name);
-    if (job === undefined && this.notices !== undefined)
-      return this.away(`the job ${name}, which is not among the files,`, at);
-    if (job === undefined) throw new TextError(at, "a job of this text", `Job ${name} is not in this text.`);
+    if (job === undefined) throw missingProgram(at, name);
     if (this.stack.length >= CALL_DEPTH)
       throw new TextError(
         at,

@@ -10,7 +10,16 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, rememberMap, type DeclaredCell, inverted, times, type Matrix } from "../../parser/index.ts";
+import {
+  TextError,
+  missingProgram,
+  nameIn,
+  rememberMap,
+  type DeclaredCell,
+  inverted,
+  times,
+  type Matrix,
+} from "../../parser/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
@@ -409,13 +418,8 @@ export class Machine extends BlockMachine<Value> {
         ];
       default: {
         const called = name.startsWith("call ") ? name.slice(5) : undefined;
-        throw new TextError(
-          statement,
-          called === undefined ? "a statement of AS" : "a program of this text",
-          called === undefined
-            ? `${name.toUpperCase()} is not understood here.`
-            : `The program ${called} is not in the text.`,
-        );
+        if (called !== undefined) throw missingProgram(statement, called);
+        throw new TextError(statement, "a statement of AS", `${name.toUpperCase()} is not understood here.`);
       }
     }
   }

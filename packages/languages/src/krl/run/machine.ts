@@ -1,5 +1,5 @@
 import type { Executed, MoveStep, Search, Signals, Step, TextFault, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside, textFault } from "../../parser/index.ts";
+import { TextError, missingProgram, WaitsOutside, textFault } from "../../parser/index.ts";
 import type {
   Declaration,
   Expression,
@@ -902,8 +902,7 @@ export class Machine implements Memory {
       });
     }
     if (!QUIET_ROUTINES.has(name)) {
-      if (!OF_PACKAGES.has(name))
-        throw new TextError(statement, "a routine of this text", `Routine ${name} is not in this text.`);
+      if (!OF_PACKAGES.has(name)) throw missingProgram(statement, name);
       this.remark(
         `call ${name}`,
         statement,

@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, WaitsOutside, nameIn, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, missingProgram, WaitsOutside, nameIn, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -611,8 +611,7 @@ export class Machine extends BlockMachine<Value> {
     }
     const called = first?.value === undefined ? "" : this.evaluate(first.value);
     const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
-    if (routine === undefined)
-      throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+    if (routine === undefined) throw missingProgram(statement, String(called));
     return yield* this.call(routine, second === undefined ? others : [second, ...others], statement);
   }
 
@@ -640,8 +639,7 @@ export class Machine extends BlockMachine<Value> {
       case "sync": {
         const called = events[0]?.value === undefined ? "" : this.evaluate(events[0].value);
         const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
-        if (routine === undefined)
-          throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+        if (routine === undefined) throw missingProgram(statement, String(called));
         return yield* this.call(routine, [], statement);
       }
       case "trigg":
@@ -750,11 +748,9 @@ export class Machine extends BlockMachine<Value> {
           );
           return undefined;
         }
-        throw new TextError(
-          at,
-          "an instruction of RAPID",
-          REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`,
-        );
+        // What is no instruction is the name of a procedure.
+        if (REFUSED[name] === undefined) throw missingProgram(at, this.spelt(name));
+        throw new TextError(at, "an instruction of RAPID", REFUSED[name]);
     }
   }
 

@@ -9,7 +9,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, rememberMap, type DeclaredCell, times } from "../../parser/index.ts";
+import { TextError, missingProgram, nameIn, rememberMap, type DeclaredCell, times } from "../../parser/index.ts";
 import {
   BlockMachine,
   changedNames,
@@ -462,11 +462,9 @@ export class Machine extends BlockMachine<Value> {
           );
         }
         if (!SILENT.has(name) && name !== "run" && name !== "kill" && name !== "join")
-          throw new TextError(
-            statement,
-            "a statement of URScript",
-            REFUSED[name] ?? `"${name}" is no statement of URScript that is understood here.`,
-          );
+          throw REFUSED[name] === undefined
+            ? missingProgram(statement, name)
+            : new TextError(statement, "a statement of URScript", REFUSED[name]);
       }
     }
     yield { line: statement.line };

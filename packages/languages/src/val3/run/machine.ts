@@ -11,7 +11,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, rememberMap, type DeclaredCell } from "../../parser/index.ts";
+import { TextError, missingProgram, rememberMap, type DeclaredCell } from "../../parser/index.ts";
 import {
   BlockMachine,
   changedNames,
@@ -743,12 +743,11 @@ export class Machine extends BlockMachine<Value> {
           );
           return undefined;
         }
+        if (name.startsWith("call ")) throw missingProgram(statement, name.slice(5));
         throw new TextError(
           statement,
           "an instruction of VAL 3",
-          name.startsWith("call ")
-            ? `The program ${name.slice(5)} is not in the text.`
-            : `"${name}" is no instruction that is understood here.`,
+          `"${name}" is no instruction that is understood here.`,
         );
     }
   }
