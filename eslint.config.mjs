@@ -38,4 +38,10 @@ export default [
       ],
     },
   },
+  {
+    // Folders in which every function and file keeps to the limits.
+    files: ["packages/languages/src/**/*.ts"],
+    ignores: ["**/*.test.ts", "**/testing/**"],
+    rules: { "max-lines-per-function": ["error", 100], complexity: ["error", 20], "max-lines": ["error", 600] },
+  },
 ];

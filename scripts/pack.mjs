@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
 import { rolldown } from "rolldown";
-import { build } from "./prepare.mjs";
+import { build, buildDocs } from "./prepare.mjs";
 import { thirdParty } from "./licences.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
@@ -32,16 +32,20 @@ const OPTIONAL = [
 const PACKED = [".wasm", ".js", ".css", ".glb", ".json", ".svg"];
 const LEAST_BYTES = 4096;
 const QUALITY = 9;
+/** Kernels are most of the weight: they are packed as small as it goes. */
+const KERNEL_QUALITY = 11;
 
 const cli = JSON.parse(readFileSync(join(root, "apps/cli/package.json"), "utf8"));
 const { engines } = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
 const optional = Object.fromEntries(OPTIONAL.map(name => [name, versionOf(name)]));
 
 build();
+buildDocs();
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 await bundle();
-studio(join(root, "apps/studio/dist"), join(folder, "studio"));
+pages(join(root, "apps/studio/dist"), join(folder, "studio"), PACKED);
+pages(join(root, "docs/.vitepress/dist"), join(folder, "docs"), [...PACKED, ".html"]);
 for (const file of ["LICENSE", "README.md", "CHANGELOG.md"]) cpSync(join(root, file), join(folder, file));
 writeFileSync(join(folder, "THIRD-PARTY.md"), thirdParty());
 writeFileSync(
@@ -55,7 +59,7 @@ writeFileSync(
       type: "module",
       engines,
       bin: { twincell: "cli/twincell.js" },
-      files: ["cli", "studio", "THIRD-PARTY.md", "CHANGELOG.md"],
+      files: ["cli", "studio", "docs", "THIRD-PARTY.md", "CHANGELOG.md"],
       peerDependencies: optional,
       peerDependenciesMeta: Object.fromEntries(OPTIONAL.map(name => [name, { optional: true }])),
     },
@@ -104,16 +108,19 @@ async function bundle() {
   cpSync(join(root, "node_modules/@bokuweb/zstd-wasm/dist/common/zstd.wasm"), join(folder, "cli/zstd.wasm"));
 }
 
-function studio(from, into) {
+/** Pages as the server hands them out: what can be packed and is worth it is packed. */
+function pages(from, into, packed) {
   mkdirSync(into, { recursive: true });
   for (const entry of readdirSync(from, { withFileTypes: true })) {
     const source = join(from, entry.name);
     const target = join(into, entry.name);
-    if (entry.isDirectory()) studio(source, target);
-    else if (PACKED.some(end => entry.name.endsWith(end)) && statSync(source).size >= LEAST_BYTES)
+    if (entry.isDirectory()) pages(source, target, packed);
+    else if (packed.some(end => entry.name.endsWith(end)) && statSync(source).size >= LEAST_BYTES)
       writeFileSync(
         `${target}.br`,
-        brotliCompressSync(readFileSync(source), { params: { [constants.BROTLI_PARAM_QUALITY]: QUALITY } }),
+        brotliCompressSync(readFileSync(source), {
+          params: { [constants.BROTLI_PARAM_QUALITY]: entry.name.endsWith(".wasm") ? KERNEL_QUALITY : QUALITY },
+        }),
       );
     else cpSync(source, target);
   }

@@ -113,6 +113,16 @@ describe("M-64 the package that npm run pack makes", () => {
       const answer = await fetch(new URL(`assets/${kernel}`, url));
       expect(answer.status).toBe(200);
       expect(WebAssembly.validate(await answer.arrayBuffer())).toBe(true);
+      // The documentation is part of it, without a network: pages with scripts of this server alone, and a search.
+      const docs = await fetch(new URL("docs/", url));
+      const text = await docs.text();
+      expect([docs.status, text.includes("Start in five minutes")]).toEqual([200, true]);
+      expect(/<script(?![^>]*\bsrc=)[^>]*>/.exec(text)).toBeNull();
+      const parts = [...text.matchAll(/(?:src|href)="(\/docs\/assets\/[^"]+)"/g)].map(found => found[1]!);
+      expect(parts.length).toBeGreaterThan(2);
+      for (const part of parts) expect((await fetch(new URL(part, url))).status, part).toBe(200);
+      expect((await fetch(new URL("docs/controllers/kuka.html", url))).status).toBe(200);
+      expect((await fetch(new URL("docs/controllers/TWINCELL.src", url))).status).toBe(200);
     } finally {
       server.kill();
     }

@@ -1,7 +1,7 @@
 // What both commands of the README need first: the packages of the lock file, and a Node that runs TypeScript.
 // Runs on any Node from 20.19, without any package installed; what it starts runs on the Node 24 of the lock file.
 import { spawnSync } from "node:child_process";
-import { existsSync, readFileSync, statSync, mkdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
 import { fileURLToPath } from "node:url";
 
@@ -51,7 +51,9 @@ export function build() {
         "packages",
         "apps/studio/src",
         "apps/studio/index.html",
-        "apps/studio/vite.config.ts",
+        ...readdirSync(`${root}apps/studio`)
+          .filter(name => /^vite.*\.ts$/.test(name))
+          .map(name => `apps/studio/${name}`),
         "package-lock.json",
         "-newermt",
         new Date(since).toISOString(),
@@ -67,6 +69,12 @@ export function build() {
   }
   console.log("Building the studio …");
   run(node, ["node_modules/vite/bin/vite.js", "build", "apps/studio", "--logLevel", "warn"]);
+}
+
+/** Builds the documentation; a link that leads nowhere ends it. */
+export function buildDocs() {
+  console.log("Building the documentation …");
+  run(node, ["node_modules/vitepress/bin/vitepress.js", "build", "docs"]);
 }
 
 export function run(command, args, options = {}) {

@@ -1,4 +1,4 @@
-// npm test: lint, boundary rules, types, unit tests, browser tests; everything it needs is installed first.
+// npm test: lint, boundary rules, clones, types, unit tests, browser tests; everything it needs is installed first.
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
 import { build, install, node, outFolder, root } from "./prepare.mjs";
@@ -32,6 +32,7 @@ const stages = [
     "boundaries",
     [bin("dependency-cruiser/bin/dependency-cruiser.mjs"), "--config", "dependency-cruiser.mjs", "packages", "apps"],
   ],
+  ["clones", ["scripts/clones.mjs"]],
   ["types", ["scripts/types.mjs"]],
   ["unit tests", vitest("vitest.config.ts", "unit.json")],
   ["browser tests", browser ? vitest("vitest.browser.config.ts", "browser.json") : null],

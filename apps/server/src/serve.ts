@@ -26,7 +26,7 @@ import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
 import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
-import { staticFiles } from "./static-files.ts";
+import { siteFiles } from "./site-files.ts";
 import { startStandards, type StandardsOptions, type StartedStandards } from "./standards/index.ts";
 import type { StandardContext } from "./standards/standard.ts";
 import { joinFleet, ownFleet, type Fleet } from "./fleet/fleet.ts";
@@ -40,6 +40,8 @@ import { standstill } from "./operations/standstill.ts";
 export interface ServeOptions {
   /** Folder of the built studio. */
   readonly studio: string;
+  /** Folder of the built documentation, which is shown at /docs/. */
+  readonly docs?: string;
   /** 0 takes any free port. */
   readonly port: number;
   /** Where the server keeps what must survive it. */
@@ -150,7 +152,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(staticFiles(options.studio), hosts, access, api, say);
+  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say);
   const own = options.lan ? await certificate(options.data, addresses) : null;
   const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);

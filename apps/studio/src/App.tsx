@@ -29,8 +29,9 @@ import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
 import { cellStore } from "./stores/cell.ts";
-import { textOf } from "./stores/document.ts";
-import { selectionStore } from "./stores/selection.ts";
+import { textOf, theProgram } from "./stores/document.ts";
+import { findStep } from "./stores/program.ts";
+import { selectionStore, type Thing } from "./stores/selection.ts";
 import { textStore } from "./stores/text.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
@@ -77,8 +78,7 @@ export function App() {
   useEffect(
     () =>
       selectionStore.subscribe(({ selected }, before) => {
-        if (selected !== before.selected && selected !== null && selected.kind !== "step")
-          sidePanel.current?.scrollTo({ top: 0 });
+        if (selected !== before.selected && isShownFirst(selected)) sidePanel.current?.scrollTo({ top: 0 });
       }),
     [],
   );
@@ -205,6 +205,17 @@ export function App() {
   );
 }
 
+/**
+ * What was recorded or gripped is selected at once, while the hand stays on the pendant: its numbers are shown below.
+ * Everything else has its numbers first.
+ */
+function isShownFirst(selected: Thing | null): boolean {
+  if (selected?.kind !== "step") return selected !== null;
+  const program = theProgram();
+  const type = program ? findStep(program, selected.id)?.step.type : undefined;
+  return type !== undefined && type !== "move" && type !== "gripper";
+}
+
 const Honest = () => (
   <p className="honest" title={words.app.notSafetyHint}>
     {words.app.notSafety}
@@ -214,9 +225,7 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
-  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the
-  // pointer.
-  const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
+  const first = useStore(selectionStore, ({ selected }) => isShownFirst(selected));
   switch (mode) {
     case "cell":
       return (

@@ -84,6 +84,9 @@ class AsyncRobot:
     async def stop(self, emergency: bool = False) -> None:
         await asyncio.to_thread(self.sync.stop, emergency)
 
+    async def hold(self) -> None:
+        await asyncio.to_thread(self.sync.hold)
+
     async def close(self) -> None:
         await asyncio.to_thread(self.sync.close)
 
@@ -119,6 +122,18 @@ class AsyncLease:
 
     async def run(self, program: Any, as_text: bool = False, despite: Sequence[str] = ()) -> None:
         await self._motion(self.sync.run, program, as_text, despite)
+
+    async def produce(self, program: Any, cycles: int | None = None, breakpoints: Sequence[str] = ()) -> None:
+        await self._motion(self.sync.produce, program, cycles, breakpoints)
+
+    async def replace(self, program: Any) -> None:
+        await asyncio.to_thread(self.sync.replace, program)
+
+    async def resume(self, at: str = "step") -> None:
+        await asyncio.to_thread(self.sync.resume, at)
+
+    async def step(self) -> None:
+        await asyncio.to_thread(self.sync.step)
 
     async def release(self) -> None:
         await asyncio.to_thread(self.sync.release)

@@ -111,6 +111,10 @@ class Robot:
     def stop(self, emergency: bool = False) -> None:
         self.connection.request("POST", robot_path(self.id, "stop"), {"emergency": emergency})
 
+    def hold(self) -> None:
+        """Stops it and keeps the place of its production, to take over by hand. Anyone may."""
+        self.connection.request("POST", robot_path(self.id, "production/hold"))
+
     def close(self) -> None:
         self.connection.request("DELETE", robot_path(self.id))
 
@@ -154,6 +158,24 @@ class Lease:
         A program whose check is red is refused; `despite` names the codes of findings you have seen and go on in spite of.
         """
         self._post("run", {"program": program, "asText": as_text, "despite": list(despite)}, None)
+
+    def produce(self, program: Any, cycles: int | None = None, breakpoints: Sequence[str] = ()) -> None:
+        """Runs a program cycle after cycle, for ever without `cycles`, and returns at the end."""
+        body = {"program": program, "cycles": cycles, "breakpoints": list(breakpoints)}
+        self._post("production", body, None)
+
+    def replace(self, program: Any) -> None:
+        """Another program from the next cycle on, without a stop; returns when it has taken over."""
+        path = robot_path(self.robot.id, "production/program")
+        self.robot.connection.request("PUT", path, {"program": program}, self.token, None)
+
+    def resume(self, at: str = "step") -> None:
+        """Hands back to a held production, from where the robot stands: its "step", or a "cycle" from its beginning."""
+        self._post("production/resume", {"from": at})
+
+    def step(self) -> None:
+        """One step of a held production."""
+        self._post("production/step")
 
     def release(self) -> None:
         self.robot.connection.request("DELETE", robot_path(self.robot.id, "lease"), lease=self.token)

@@ -16,8 +16,11 @@ const arm = await server.open({ id: "arm", driver: "yaskawa", model: "yaskawa_gp
 const lease = await arm.lease({ who: "example" });
 await lease.connect();
 // A link that was slow while it was opened wants a person's word before anything moves.
-for await (const event of arm.events()) if (event.type === "link" && event.state === "open") break;
-await lease.confirm();
+for await (const event of arm.events()) {
+  if (event.type !== "guard") continue;
+  if (event.link === "up") break;
+  if (event.link === "unconfirmed") await lease.confirm();
+}
 
 const seen: StreamEventOf<"sample">[] = [];
 const enough = new AbortController();

@@ -534,6 +534,16 @@ export interface Routes {
         readonly cell?: boolean;
         readonly kept_m?: number;
       } | null;
+      readonly production: {
+        readonly type: "production";
+        readonly station: string;
+        readonly state: "running" | "held" | "ended";
+        readonly cycle: number;
+        readonly of: number | null;
+        readonly program: string;
+        readonly step: string;
+        readonly next: string | null;
+      } | null;
     };
   };
   /** Robots of all servers of the cluster, or of this one when it is by itself */
@@ -873,6 +883,229 @@ export interface Routes {
        * being sent.
        */
       readonly despite?: readonly string[];
+    };
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** Runs a program cycle after cycle; answered at its end. Ending the request stops the robot */
+  readonly produce: {
+    readonly method: "POST";
+    readonly path: "/api/v1/robots/{id}/production";
+    readonly body: {
+      /** A program: docs/program.schema.json. */
+      readonly program: unknown;
+      /** true: as a program of the controller's own language. */
+      readonly asText?: boolean;
+      /**
+       * Codes of red findings that you have seen and send it in spite of; any other keeps it from
+       * being sent.
+       */
+      readonly despite?: readonly string[];
+      /** null: until it is ended. */
+      readonly cycles?: number | null;
+      /** Ids of steps of the program's own list before which it is held. */
+      readonly breakpoints?: readonly string[];
+      /** true: held before each step of that list. */
+      readonly stepping?: boolean;
+    };
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** Another program from the next cycle on, without a stop; answered when it has taken over */
+  readonly replaceProgram: {
+    readonly method: "PUT";
+    readonly path: "/api/v1/robots/{id}/production/program";
+    readonly body: {
+      /** A program: docs/program.schema.json. */
+      readonly program: unknown;
+      /** true: as a program of the controller's own language. */
+      readonly asText?: boolean;
+      /**
+       * Codes of red findings that you have seen and send it in spite of; any other keeps it from
+       * being sent.
+       */
+      readonly despite?: readonly string[];
+    };
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** Stops the robot and keeps the place, to take over by hand; anyone may */
+  readonly holdProduction: {
+    readonly method: "POST";
+    readonly path: "/api/v1/robots/{id}/production/hold";
+    readonly body: undefined;
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** Hands back to a held production, from where the robot stands */
+  readonly resumeProduction: {
+    readonly method: "POST";
+    readonly path: "/api/v1/robots/{id}/production/resume";
+    readonly body: {
+      /** With the step it was in, from where the robot stands; or with a cycle from its beginning. */
+      readonly from?: "step" | "cycle";
+    };
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** One step of a held production */
+  readonly stepProduction: {
+    readonly method: "POST";
+    readonly path: "/api/v1/robots/{id}/production/step";
+    readonly body: undefined;
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
+  /** Steps before which the production is held */
+  readonly setBreakpoints: {
+    readonly method: "PUT";
+    readonly path: "/api/v1/robots/{id}/production/breakpoints";
+    readonly body: {
+      readonly steps: readonly string[];
     };
     readonly answer:
       | {
@@ -1307,6 +1540,12 @@ export const ROUTES: { readonly [Id in RouteId]: readonly [Routes[Id]["method"],
   speed: ["POST", "/api/v1/robots/{id}/speed"],
   move: ["POST", "/api/v1/robots/{id}/move"],
   run: ["POST", "/api/v1/robots/{id}/run"],
+  produce: ["POST", "/api/v1/robots/{id}/production"],
+  replaceProgram: ["PUT", "/api/v1/robots/{id}/production/program"],
+  holdProduction: ["POST", "/api/v1/robots/{id}/production/hold"],
+  resumeProduction: ["POST", "/api/v1/robots/{id}/production/resume"],
+  stepProduction: ["POST", "/api/v1/robots/{id}/production/step"],
+  setBreakpoints: ["PUT", "/api/v1/robots/{id}/production/breakpoints"],
   setCell: ["PUT", "/api/v1/robots/{id}/cell"],
   stop: ["POST", "/api/v1/robots/{id}/stop"],
   stopAll: ["POST", "/api/v1/stop"],
@@ -1500,6 +1739,16 @@ export type StreamEvent =
         readonly value?: number;
         readonly limit?: number;
       };
+    }
+  | {
+      readonly type: "production";
+      readonly station: string;
+      readonly state: "running" | "held" | "ended";
+      readonly cycle: number;
+      readonly of: number | null;
+      readonly program: string;
+      readonly step: string;
+      readonly next: string | null;
     }
   | {
       readonly type: "fault";

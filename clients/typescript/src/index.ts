@@ -124,6 +124,10 @@ export class Robot {
   async stop(emergency = false): Promise<void> {
     await this.connection.call("stop", { emergency }, { params: { id: this.id } });
   }
+  /** Stops it and keeps the place of its production, to take over by hand. Anyone may. */
+  async hold(): Promise<void> {
+    await this.connection.call("holdProduction", undefined, { params: { id: this.id } });
+  }
   async close(): Promise<void> {
     await this.connection.call("closeRobot", undefined, { params: { id: this.id } });
   }
@@ -166,6 +170,27 @@ export class Lease {
   async run(program: unknown, options: Omit<Body<"run">, "program"> & MotionOptions = {}): Promise<void> {
     const { signal, ...rest } = options;
     await this.robot.connection.call("run", { program, ...rest }, this.options(signal));
+  }
+  /** Runs a program cycle after cycle; resolves when the last has ended. */
+  async produce(program: unknown, options: Omit<Body<"produce">, "program"> & MotionOptions = {}): Promise<void> {
+    const { signal, ...rest } = options;
+    await this.robot.connection.call("produce", { program, ...rest }, this.options(signal));
+  }
+  /** Another program from the next cycle on, without a stop; resolves when it has taken over. */
+  async replace(program: unknown, options: Omit<Body<"replaceProgram">, "program"> = {}): Promise<void> {
+    await this.robot.connection.call("replaceProgram", { program, ...options }, this.options());
+  }
+  /** Hands back to a production that was held, from where the robot stands. */
+  async resume(from: "step" | "cycle" = "step"): Promise<void> {
+    await this.robot.connection.call("resumeProduction", { from }, this.options());
+  }
+  /** One step of a held production. */
+  async step(): Promise<void> {
+    await this.robot.connection.call("stepProduction", undefined, this.options());
+  }
+  /** Steps before which the production is held. */
+  async breakpoints(steps: readonly string[]): Promise<void> {
+    await this.robot.connection.call("setBreakpoints", { steps }, this.options());
   }
   /** The cell that its guard keeps the robot clear of. */
   async setCell(cell: unknown): Promise<void> {

@@ -9,7 +9,16 @@ import { universalRobots } from "./ur/index.ts";
 import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
-export const DRIVER_KINDS: readonly DriverKind[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli, staubliCs7];
+export const DRIVER_KINDS: readonly DriverKind[] = [
+  // One a line.
+  universalRobots,
+  kuka,
+  yaskawa,
+  fanuc,
+  abb,
+  staubli,
+  staubliCs7,
+];
 /** Those, and the other ways to the same controllers. */
 export const ALL_DRIVER_KINDS: readonly DriverKind[] = [...DRIVER_KINDS, kukaOverRsi, abbOverEgm];
 export const driverKindById = (id: string): DriverKind | undefined => ALL_DRIVER_KINDS.find(kind => kind.id === id);

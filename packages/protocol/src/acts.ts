@@ -69,6 +69,21 @@ export function auditEntryState(act: AuditEntry): AuditEntryState {
       return command("moves all joints to zero");
     case "run":
       return command("runs a program", `${nameOf(act.program)}${act.asText ? AS_TEXT : ""}${inSpiteOf(act.despite)}`);
+    case "produce":
+      return command(
+        "begins a production",
+        `${nameOf(act.program)}, ${act.cycles === null ? "until it is ended" : `${act.cycles} cycles`}${act.asText ? AS_TEXT : ""}${inSpiteOf(act.despite)}`,
+      );
+    case "replace":
+      return command("gives the next cycle another program", `${nameOf(act.program)}${inSpiteOf(act.despite)}`);
+    case "intervene":
+      return command("holds the production to take over by hand");
+    case "resume":
+      return command("hands back to the production", act.from === "cycle" ? "from the beginning of a cycle" : "");
+    case "single-step":
+      return command("lets the production do one step");
+    case "breakpoints":
+      return plain("holds the production before steps", act.steps.join(", "));
     case "together":
       return command(
         `starts a program together with ${act.members - 1} more`,

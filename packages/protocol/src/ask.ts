@@ -103,6 +103,34 @@ export const requestSchema = z.discriminatedUnion("type", [
     asText: z.boolean(),
     despite: z.exactOptional(despite),
   }),
+  /**
+   * Runs a program cycle after cycle, `cycles` times or until it is ended; held before the steps named, and before each
+   * one with `stepping`. Answered at its end.
+   */
+  z.object({
+    type: z.literal("produce"),
+    ...asked,
+    ...station,
+    program: z.unknown(),
+    asText: z.boolean(),
+    despite: z.exactOptional(despite),
+    cycles: z.int().min(1).nullable(),
+    breakpoints: z.array(text).max(1000),
+    stepping: z.boolean(),
+  }),
+  /** Another program from the next cycle on; answered when it has taken over, or why it does not. */
+  z.object({
+    type: z.literal("replace"),
+    ...asked,
+    ...station,
+    program: z.unknown(),
+    asText: z.boolean(),
+    despite: z.exactOptional(despite),
+  }),
+  /** Holds a production to take over by hand, and as a stop anyone may; `resume` hands back. */
+  z.object({ type: z.enum(["intervene", "single-step"]), ...asked, ...station }),
+  z.object({ type: z.literal("resume"), ...asked, ...station, from: z.enum(["step", "cycle"]) }),
+  z.object({ type: z.literal("breakpoints"), ...asked, ...station, steps: z.array(text).max(1000) }),
   /** How far ahead of the robot is looked [s]. */
   z.object({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
   /** Shows where a program would take the robot; nothing is sent to it. */

@@ -1,93 +1,12 @@
-import {
-  parseProgram,
-  type CommandOutcome,
-  type JointSample,
-  type LinkReport,
-  type Program,
-  type Refusal,
-  type RobotController,
-  type Scheduler,
-} from "@twincell/core";
+import { parseProgram, type CommandOutcome, type Refusal, type Scheduler } from "@twincell/core";
 import { auditEntryState, type AuditEntry } from "./acts.ts";
 import type { ConnectionRequest, RequestOf } from "./ask.ts";
-import { subscribeToPendant, type ServedVirtualPendant, type PendantSubscription } from "./pendant.ts";
+import { subscribeToPendant, type PendantSubscription } from "./pendant.ts";
 import type { Channel } from "./channel.ts";
+import { createProductions } from "./productions.ts";
+import type { OpenedConnection, ServedCommander, ServedConnection, ServedGroup, ServedMember } from "./served.ts";
 import { requestOrEnd, PROTOCOL, write } from "./read.ts";
-import type { ConnectionInfo, ConnectionEvent, EventOf } from "./tell.ts";
-
-/** The place of one who commands at one station. */
-export interface ServedCommander {
-  acquireLease(): CommandOutcome;
-  releaseLease(): CommandOutcome;
-  setEnabled(pressed: boolean): CommandOutcome;
-  acknowledge(): CommandOutcome;
-  alive(): void;
-  readonly robot: RobotController;
-}
-/** What a host needs of a station. */
-export interface ServedConnection<Seat extends ServedCommander = ServedCommander> {
-  readonly words: ConnectionInfo;
-  readonly link: LinkReport | null;
-  readonly guard: { readonly state: Omit<EventOf<"guard">, "type" | "station" | "cell" | "kept_m"> };
-  /** Whether its guard knows a cell, and how much it keeps from what stands there [m]. */
-  readonly kept: { readonly cell: boolean; readonly kept_m: number };
-  readonly deviation: { readonly plan_rad: number; readonly command_rad: number };
-  commander(who: string): Seat;
-  connect(): Promise<CommandOutcome>;
-  disconnect(): void;
-  /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
-  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
-  readonly ahead: {
-    horizon_s: number;
-    onChange(
-      listen: (
-        words: {
-          readonly q_rad: Float64Array;
-          readonly in_s: number;
-          readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null;
-        } | null,
-      ) => void,
-    ): () => void;
-  };
-  preview(program: Program): Promise<CommandOutcome>;
-  /** Whether its connection can be told every step of it, one by one. */
-  takes(program: Program): CommandOutcome;
-  run(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
-  /** Makes a program ready to be started: what may be refused is told before anything moves. */
-  prepare(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<ServedRun>;
-  stop(emergency: boolean): void;
-  /** The cell whose objects and tool its guard keeps it from. */
-  setCell(document: unknown): CommandOutcome;
-  /** The pendant of a virtual controller; null where a person stands before a real one. */
-  readonly pendant: ServedVirtualPendant | null;
-  readonly plug: ((pulled: boolean) => void) | null;
-  onSample(listen: (lent: JointSample) => void): () => void;
-  onLink(listen: (report: LinkReport) => void): () => void;
-  onGuard(listen: () => void): () => void;
-  onNotice(listen: (why: Refusal) => void): () => void;
-  close(): void;
-}
-/** A program that a station has and is ready for. */
-export type ServedRun =
-  | {
-      readonly kind: "armed";
-      readonly movesAtOnce: boolean;
-      readiness(): Refusal | null;
-      start(): Promise<CommandOutcome>;
-      drop(): void;
-    }
-  | { readonly kind: "refused"; readonly why: Refusal };
-export interface ServedMember {
-  readonly station: ServedConnection;
-  readonly prepare: () => Promise<ServedRun>;
-}
-export interface ServedGroup {
-  readonly outcome: CommandOutcome;
-  readonly each: ReadonlyMap<string, CommandOutcome>;
-}
-export type OpenedConnection =
-  | { readonly kind: "opened"; readonly station: ServedConnection }
-  | { readonly kind: "refused"; readonly why: Refusal };
+import type { ConnectionEvent, EventOf } from "./tell.ts";
 
 /** What an app brings to its host. */
 export interface RobotServerOptions {
@@ -157,6 +76,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     const text = write(message);
     for (const channel of channels) channel.send(text);
   };
+  const productions = createProductions(all);
   const linkWords = (station: ServedConnection): EventOf<"link"> | null => {
     const { link } = station;
     return (
@@ -285,6 +205,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     if (!entry) return;
     stations.delete(id);
     entry.forget();
+    productions.stopped(entry.station);
     for (const forget of closing) forget(entry.station);
     entry.station.close();
     all({ type: "closed", station: id });
@@ -395,6 +316,13 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
             if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
             return station.run(seat, parsed.program, ask.asText, ask.despite);
           }
+          case "produce":
+          case "replace":
+          case "intervene":
+          case "resume":
+          case "single-step":
+          case "breakpoints":
+            return productions.carryOut(who, station, seat, ask);
           case "pendant":
             return visitTo(station)?.act(ask.act) ?? noPendant(station);
           case "plug":
@@ -476,6 +404,8 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
         tell(guardWords(station));
         const link = linkWords(station);
         if (link) tell(link);
+        const production = productions.stateOf(station);
+        if (production) tell(production);
       }
       const leave = (): void => {
         if (gone) return;
@@ -510,6 +440,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
             case "stop": {
               const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
               for (const [, { station }] of meant) station.stop(ask.emergency);
+              for (const [, { station }] of meant) productions.stopped(station);
               for (const [id] of meant) tellAct(who, ask, id)(DONE);
               break;
             }

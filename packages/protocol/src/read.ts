@@ -3,7 +3,7 @@ import { requestSchema, type ConnectionRequest } from "./ask.ts";
 import { eventSchema, type ConnectionEvent } from "./tell.ts";
 
 /** Counts up with every change that the other side would misunderstand. */
-export const PROTOCOL = 2;
+export const PROTOCOL = 3;
 /** Hosts since this one say nothing that is misunderstood: plug-ins among them. */
 export const OLDEST_HOST = 1;
 /** A message longer than this is not looked at: a program of a hundred thousand steps is shorter. */

@@ -169,6 +169,20 @@ export const eventSchema = z.discriminatedUnion("type", [
     outcome: outcomeSchema.nullable(),
   }),
   z.object({ type: z.literal("notice"), ...station, why: refusal }),
+  /** A program that is run cycle after cycle: told at every change, and to whoever comes while it runs. */
+  z.object({
+    type: z.literal("production"),
+    ...station,
+    state: z.enum(["running", "held", "ended"]),
+    /** Cycles begun, from 1; of how many, null for until it is ended. */
+    cycle: z.int(),
+    of: z.int().nullable(),
+    program: text,
+    /** The step it is in or goes on with; "" where that is not known. */
+    step: text,
+    /** Name of the program that takes over at the next cycle. */
+    next: text.nullable(),
+  }),
   /** To those who watch: `words` once, then only what is shown. */
   z.object({
     type: z.literal("pendant"),

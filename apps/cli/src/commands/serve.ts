@@ -7,7 +7,7 @@ import { given } from "../io/arguments.ts";
 import cli from "../../package.json" with { type: "json" };
 import { checkPort, natsOf, standardsOf } from "../io/standards.ts";
 import { SERVE_OPTIONS, serveArguments } from "../io/serve-options.ts";
-import { studioFolder } from "../io/studio-folder.ts";
+import { docsFolder, studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 const DEFAULT_PORT = 7341;
@@ -60,6 +60,7 @@ SIGINT and SIGTERM stop every robot, wait until it stands, finish recordings and
         ? new UseFault("The studio is not built yet.", "Run npm run build, or npm start.")
         : new UseFault(`There is no built studio in ${other}.`, "Name the folder that has its index.html.");
 
+    const docs = docsFolder();
     const data = options.text("data");
     const kept = data === undefined ? undefined : join(data, "connections.json");
     const connections = options.text("connections") ?? (kept !== undefined && existsSync(kept) ? kept : undefined);
@@ -75,6 +76,7 @@ SIGINT and SIGTERM stop every robot, wait until it stands, finish recordings and
     const served = await listen(
       {
         studio,
+        ...(docs === undefined ? {} : { docs }),
         log,
         version: cli.version,
         ...(host === undefined ? {} : { host }),

@@ -134,6 +134,12 @@ type RobotRoutes =
   | "speed"
   | "move"
   | "run"
+  | "produce"
+  | "replaceProgram"
+  | "holdProduction"
+  | "resumeProduction"
+  | "stepProduction"
+  | "setBreakpoints"
   | "setCell"
   | "stop"
   | "stopAll";
@@ -220,6 +226,7 @@ function robotHandlers({ host, robots }: ApiParts): Pick<Handlers, RobotRoutes> 
         asText: call.body.asText,
         ...(call.body.despite ? { despite: call.body.despite } : {}),
       }),
+    ...productionHandlers({ robots, leased, motion }),
     setCell: call => unlessTaken(call, { type: "cell", station: call.params["id"]!, cell: call.body.cell }),
     stop(call) {
       const id = call.params["id"]!;
@@ -233,6 +240,45 @@ function robotHandlers({ host, robots }: ApiParts): Pick<Handlers, RobotRoutes> 
     },
   };
 }
+type Commanded = (call: Call<ApiRouteId>, request: Request) => Promise<Answer>;
+type ProductionRoutes = Extract<RobotRoutes, `${string}Production` | "produce" | "replaceProgram" | "setBreakpoints">;
+/** Programs that run cycle after cycle: another one while they run, held, by hand, handed back, step by step. */
+function productionHandlers({
+  robots,
+  leased,
+  motion,
+}: {
+  readonly robots: ApiRobots;
+  readonly leased: Commanded;
+  readonly motion: Commanded;
+}): Pick<Handlers, ProductionRoutes> {
+  const order = ({ program, asText, despite }: Call<"replaceProgram">["body"]) => ({
+    program,
+    asText,
+    ...(despite ? { despite } : {}),
+  });
+  return {
+    produce: call =>
+      motion(call, {
+        type: "produce",
+        station: call.params["id"]!,
+        ...order(call.body),
+        cycles: call.body.cycles,
+        breakpoints: call.body.breakpoints,
+        stepping: call.body.stepping,
+      }),
+    replaceProgram: call => leased(call, { type: "replace", station: call.params["id"]!, ...order(call.body) }),
+    async holdProduction(call) {
+      const id = call.params["id"]!;
+      if (!robots.find(id)) return noRobot(id);
+      return outcomeAnswer(await robots.ask(call.who, { type: "intervene", station: id }));
+    },
+    resumeProduction: call => leased(call, { type: "resume", station: call.params["id"]!, from: call.body.from }),
+    stepProduction: call => leased(call, { type: "single-step", station: call.params["id"]! }),
+    setBreakpoints: call => leased(call, { type: "breakpoints", station: call.params["id"]!, steps: call.body.steps }),
+  };
+}
+
 /** A pose that came by JSON, as the pose of the base in the world. */
 function opened({
   worldFromBase,

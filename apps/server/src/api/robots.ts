@@ -20,6 +20,7 @@ interface Heard {
   sample: string | null;
   link: string | null;
   guard: string | null;
+  production: string | null;
   signals: unknown;
   samples: number;
 }
@@ -34,7 +35,12 @@ const MOST_LEASES = 64;
 
 export interface ApiRobots {
   find(id: string): ServedConnection | undefined;
-  state(id: string): { readonly sample: unknown; readonly link: unknown; readonly guard: unknown };
+  state(id: string): {
+    readonly sample: unknown;
+    readonly link: unknown;
+    readonly guard: unknown;
+    readonly production: unknown;
+  };
   samples(id: string): number;
   /** As that person, without a lease. */
   ask(who: string, request: Request): Promise<CommandOutcome>;
@@ -111,9 +117,13 @@ export function createApiRobots(host: RobotServer, scheduler: Scheduler): ApiRob
         for (const lease of leases.values()) if (lease.robot === id) drop(lease);
         return;
       }
-      if (type !== "sample" && type !== "link" && type !== "guard") return;
+      if (type !== "sample" && type !== "link" && type !== "guard" && type !== "production") return;
       let one = heard.get(id);
-      if (!one) heard.set(id, (one = { sample: null, link: null, guard: null, signals: undefined, samples: 0 }));
+      if (!one)
+        heard.set(
+          id,
+          (one = { sample: null, link: null, guard: null, production: null, signals: undefined, samples: 0 }),
+        );
       one[type] = text;
       if (type !== "sample") return;
       one.samples++;
@@ -146,6 +156,7 @@ export function createApiRobots(host: RobotServer, scheduler: Scheduler): ApiRob
         sample: sample && one?.signals !== undefined ? { ...sample, signals: one.signals } : sample,
         link: parsed(one?.link ?? null),
         guard: parsed(one?.guard ?? null),
+        production: parsed(one?.production ?? null),
       };
     },
     samples: id => heard.get(id)?.samples ?? 0,

@@ -3,7 +3,16 @@ import type { RoleAt } from "../people/gate.ts";
 import { mayUse } from "../people/tokens.ts";
 
 /** What everybody may say on the socket of the studio: looking, signs of life, and stops. */
-const LOOKS: ReadonlySet<unknown> = new Set(["ping", "alive", "visit", "look-ahead", "preview", "takes", "stop"]);
+const LOOKS: ReadonlySet<unknown> = new Set([
+  "ping",
+  "alive",
+  "visit",
+  "look-ahead",
+  "preview",
+  "takes",
+  "stop",
+  "intervene",
+]);
 
 /**
  * Messages of somebody with roles: what their role at that robot does not allow is answered as refused and never

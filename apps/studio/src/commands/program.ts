@@ -5,6 +5,16 @@ import { theLive } from "../runtime/live.ts";
 import { solveStep } from "../runtime/jog/solve.ts";
 import { touchUpSelected } from "../runtime/text-program.ts";
 import { cellStore } from "../stores/cell.ts";
+import { keepPose } from "../stores/poses.ts";
+import {
+  addMessage,
+  addPallet,
+  addPayload,
+  addRoutine,
+  addStop,
+  recordedTarget,
+  touchedTarget,
+} from "../stores/structure.ts";
 import { collideStore } from "../stores/collide.ts";
 import type { Command } from "../stores/commands.ts";
 import { textOf, theProgram, theRobot } from "../stores/document.ts";
@@ -48,6 +58,7 @@ const stepOf = (id: string | null): ReturnType<typeof findStep> => {
 };
 const isMove = (id: string | null): boolean => stepOf(id)?.step.type === "move";
 const hasProgram = (): boolean => theProgram() !== null;
+const tool = (): string => cellStore.getState().document?.tool ?? "flange";
 const nameOf = (id: string): string => {
   const found = stepOf(id);
   return found ? stepWords(found.step, found.index) : id;
@@ -64,10 +75,13 @@ function refused(): boolean {
 }
 function record(path: "ptp" | "lin"): void {
   if (refused()) return;
-  const tool = cellStore.getState().document?.tool ?? "flange";
-  if (!recordPoint(path, theLive().q_rad, tool)) return;
+  if (!recordPoint(path, theLive().q_rad, tool(), recordedTarget)) return;
   const id = selectedStep();
-  if (id) notify("done", words.jog.recorded(nameOf(id)));
+  const step = stepOf(id)?.step;
+  if (!id || step?.type !== "move") return;
+  const pallet = "frame" in step.target ? step.target.frame : undefined;
+  if (pallet === undefined) notify("done", words.jog.recorded(nameOf(id)));
+  else notify("done", words.editor.recordedAtPlace(nameOf(id), pallet));
 }
 /** The first press keeps the point in between, the second ends the arc there; another program forgets it. */
 let via: { readonly program: Program; readonly q_rad: readonly number[] } | null = null;
@@ -84,8 +98,7 @@ function recordArc(): void {
     notify("warn", words.headset.viaNone);
     return;
   }
-  const tool = cellStore.getState().document?.tool ?? "flange";
-  if (recordArcTo(via.q_rad, q_rad, tool)) via = null;
+  if (recordArcTo(via.q_rad, q_rad, tool())) via = null;
   const id = selectedStep();
   if (id && via === null) notify("done", words.jog.recorded(nameOf(id)));
 }
@@ -131,7 +144,7 @@ export const programCommands = (): readonly Command[] => [
         return;
       }
       const id = selectedStep();
-      if (id && !refused() && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange"))
+      if (id && !refused() && touchUp(id, theLive().q_rad, tool(), touchedTarget))
         notify("done", words.jog.touched(nameOf(id)));
     },
   },
@@ -205,6 +218,60 @@ export const programCommands = (): readonly Command[] => [
     can: () => Object.keys(theProgram()?.routines ?? {}).length > 0,
     run: () => {
       addCall();
+    },
+  },
+  {
+    id: "program.pallet",
+    group: "program",
+    words: words.editor.commands.pallet,
+    can: hasProgram,
+    run: () => {
+      addPallet(theLive().worldFromTcp);
+    },
+  },
+  {
+    id: "program.payload",
+    group: "program",
+    words: words.editor.commands.payload,
+    can: hasProgram,
+    run: () => {
+      addPayload();
+    },
+  },
+  {
+    id: "program.message",
+    group: "program",
+    words: words.editor.commands.message,
+    can: hasProgram,
+    run: () => {
+      addMessage();
+    },
+  },
+  {
+    id: "program.stop",
+    group: "program",
+    words: words.editor.commands.stop,
+    can: hasProgram,
+    run: () => {
+      addStop();
+    },
+  },
+  {
+    id: "program.routine",
+    group: "program",
+    words: words.editor.commands.routine,
+    can: hasProgram,
+    run: () => {
+      addRoutine();
+    },
+  },
+  {
+    id: "program.keep-pose",
+    group: "program",
+    words: words.editor.commands.keepPose,
+    keys: ["Shift+K"],
+    run: () => {
+      if (keepPose(theLive().worldFromTcp)) notify("done", words.editor.poseKept);
     },
   },
   {

@@ -1,4 +1,5 @@
 import type { Command } from "../stores/commands.ts";
+import { openDocs } from "./docs.ts";
 import { openDialog } from "../stores/dialogs.ts";
 import { headsetStore } from "../stores/headset.ts";
 import {
@@ -56,6 +57,7 @@ export const viewCommands = (): readonly Command[] => [
     keys: ["?"],
     run: () => openDialog("shortcuts"),
   },
+  { id: "help.docs", group: "help", words: words.commands.docs, keys: ["F1"], run: () => void openDocs() },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },
   { id: "view.people", group: "view", words: words.people.command, run: () => openDialog("people") },
   { id: "view.cameras", group: "view", words: words.video.command, run: () => openDialog("cameras") },

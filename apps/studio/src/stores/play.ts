@@ -1,4 +1,4 @@
-import type { PathPiece, Plan, StepVerdict, Verdict } from "@twincell/core";
+import type { CarriedPart, PathPiece, Plan, StepVerdict, Verdict } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 
 /** The program laid out in time, judged, and where on the timeline we look. */
@@ -21,6 +21,8 @@ export interface PlayState {
   readonly speed: number;
   /** TCP path in the world, cut where its verdict changes, for drawing. */
   readonly path: readonly PathPiece[];
+  /** Parts that the program takes, and where it leaves them; played without physics as well (row L-34). */
+  readonly carried: readonly CarriedPart[];
   /** The other robots of the cell count as obstacles, where they stand when it is checked. */
   readonly withOthers: boolean;
   /** A repair being shown and not yet applied: the ids of the steps it would change. */
@@ -36,6 +38,7 @@ export const playStore = createStore<PlayState>(() => ({
   playing: false,
   speed: 1,
   path: [],
+  carried: [],
   withOthers: false,
   preview: null,
 }));

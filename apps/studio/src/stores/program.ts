@@ -1,5 +1,6 @@
 import {
   applyRepair,
+  callableFrom,
   duplicateSteps,
   everyStep,
   freshStepId,
@@ -10,8 +11,10 @@ import {
   moveBefore,
   moveInto,
   moveSteps,
+  nothingOf,
   removeSteps,
   replaceStep,
+  routineOf,
   stepById,
   withSignal,
   wrapInRepeat,
@@ -26,6 +29,7 @@ import {
   type Variable,
   type Speed,
   type Step,
+  type Target,
   type Verdict,
 } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
@@ -43,9 +47,11 @@ export function findStep(program: Program, id: string): { readonly step: Step; r
   return undefined;
 }
 
-/** Where new steps go: after the selected one, into the selected block, or at the end. */
-function insertSelected(program: Program, steps: readonly Step[]): Program {
+/** Where new steps go: after the selected one, into the selected block or routine, or at the end. */
+export function insertSelected(program: Program, steps: readonly Step[]): Program {
   const { selected } = selectionStore.getState();
+  if (selected?.kind === "routine" && Object.hasOwn(program.routines, selected.name))
+    return insertInto(program, { routine: selected.name }, Number.POSITIVE_INFINITY, steps);
   const found = selected?.kind === "step" ? findStep(program, selected.id)?.step : undefined;
   if (found === undefined) return insertSteps(program, program.steps.length, steps);
   return isBlock(found) || (found.type === "wait-for" && found.late !== undefined)
@@ -80,8 +86,17 @@ export function addSteps(
   return true;
 }
 
-/** Records these joint angles as the target of a move (rows N-32, T-29). Joints leave no doubt about the posture. */
-export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, tool: string): boolean {
+/**
+ * Records these joint angles as the target of a move (rows N-32, T-29). Joints leave no doubt about the posture.
+ *
+ * @param place  what the target counts from instead, where it is of a pallet's places.
+ */
+export function recordPoint(
+  path: MoveStep["path"],
+  q_rad: ArrayLike<number>,
+  tool: string,
+  place: (target: Target) => Target = target => target,
+): boolean {
   const q = Array.from(q_rad);
   const speed: Speed = path === "ptp" ? { ratio: 0.4 } : { mps: 0.1 };
   if (!q.every(Number.isFinite)) return false;
@@ -92,7 +107,7 @@ export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, to
       path,
       speed,
       blend_m: 0,
-      target: tool === "flange" ? { q } : { q, tool },
+      target: place(tool === "flange" ? { q } : { q, tool }),
     },
   ]);
 }
@@ -203,7 +218,14 @@ export const setVariable = (name: string, variable: Variable): boolean =>
   edit(words.undo.variable, program => withVariable(program, name, variable));
 export const addCall = (): boolean => {
   const program = theProgram();
-  const routine = Object.keys(program?.routines ?? {})[0];
+  const { selected } = selectionStore.getState();
+  const within =
+    selected?.kind === "routine"
+      ? selected.name
+      : selected?.kind === "step" && program
+        ? routineOf(program, selected.id)
+        : undefined;
+  const routine = program === null ? undefined : callableFrom(program, within)[0];
   if (program === null || routine === undefined) return false;
   return addSteps(words.undo.addCall, before => [
     { id: freshStepId(before, "k"), type: "call", routine, ...firstArguments(before, routine) },
@@ -214,16 +236,7 @@ export function firstArguments(program: Program, routine: string): Pick<Extract<
   const wanted = Object.entries(program.parameters?.[routine] ?? {});
   if (wanted.length === 0) return {};
   return {
-    arguments: Object.fromEntries(
-      wanted.map(([name, type]) => [
-        name,
-        type.type === "bool"
-          ? false
-          : type.type === "num" && type.unit !== undefined
-            ? { value: 0, unit: type.unit }
-            : 0,
-      ]),
-    ),
+    arguments: Object.fromEntries(wanted.map(([name, type]) => [name, nothingOf(type)])),
   };
 }
 
@@ -246,10 +259,15 @@ export const changeMove = (
   gesture?: string,
 ): boolean => changeStep(id, label, step => (step.type === "move" ? change(step) : step), gesture);
 /** Row L-42 in its first form: the point becomes where the robot stands. */
-export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boolean =>
+export const touchUp = (
+  id: string,
+  q_rad: ArrayLike<number>,
+  tool: string,
+  place: (target: Target, before: Target) => Target = target => target,
+): boolean =>
   changeMove(id, words.undo.touchUp, step => ({
     ...step,
-    target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
+    target: place(tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool }, step.target),
   }));
 export const renameStep = (id: string, name: string): boolean =>
   changeStep(id, words.undo.rename, step => {

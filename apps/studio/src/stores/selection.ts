@@ -6,6 +6,7 @@ export type Thing =
   | { readonly kind: "tool" }
   | { readonly kind: "object"; readonly id: string }
   | { readonly kind: "frame"; readonly name: string }
+  | { readonly kind: "routine"; readonly name: string }
   | { readonly kind: "step"; readonly id: string };
 
 export interface SelectionState {

@@ -2,9 +2,9 @@ import { fixed } from "../messages/numbers.ts";
 
 /**
  * What a number field is about; decides the unit when none is typed. Inside: metres, radians, seconds, metres a second,
- * 1.
+ * kilograms, 1.
  */
-export type Quantity = "length" | "angle" | "time" | "speed" | "percent" | "plain";
+export type Quantity = "length" | "angle" | "time" | "speed" | "mass" | "percent" | "plain";
 export type Typed =
   | { readonly kind: "value"; readonly value: number }
   | { readonly kind: "not-understood"; readonly at: number };
@@ -15,6 +15,7 @@ const UNITS: Readonly<Record<Quantity, Readonly<Record<string, number>>>> = {
   angle: { "°": Math.PI / 180, deg: Math.PI / 180, rad: 1 },
   time: { s: 1, ms: 0.001, min: 60 },
   speed: { "mm/s": 0.001, "m/s": 1, "m/min": 1 / 60 },
+  mass: { kg: 1, g: 0.001, t: 1000 },
   percent: { "%": 0.01 },
   plain: { "": 1 },
 };

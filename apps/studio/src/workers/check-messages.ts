@@ -1,4 +1,4 @@
-import type { CellGeometry, PathPiece, Plan, Program, Verdict } from "@twincell/core";
+import type { CarriedPart, CellGeometry, PathPiece, Plan, Program, Verdict } from "@twincell/core";
 
 /** One program to judge. The geometry is sent only when it changed since the last question to this worker. */
 export interface ToChecker {
@@ -16,6 +16,8 @@ export type FromChecker =
       readonly verdict: Verdict;
       readonly plan: Plan;
       readonly path: readonly PathPiece[];
+      /** Parts of the cell that the program carries, in the order in which they are taken. */
+      readonly carried: readonly CarriedPart[];
       readonly took_ms: number;
     }
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

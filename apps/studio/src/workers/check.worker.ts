@@ -35,6 +35,7 @@ addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
       id,
       verdict: checked.verdict,
       plan: checked.plan,
+      carried: checked.carried,
       path: pathPieces(checked, program, robot, cell),
       took_ms: performance.now() - began,
     });

@@ -1,8 +1,8 @@
-import type { DriverKind, StartedDriver, VendorVirtualOptions } from "../driver/index.ts";
+import { startedDriver, type DriverKind, type StartedDriver, type VendorVirtualOptions } from "../driver/index.ts";
 import { ABB_CANNOT, ABB_EGM_CANNOT } from "./cannot.ts";
 import { EGM_PORT, RWS_PORT } from "./codec/index.ts";
 import { abbEgmAdapter, abbAdapter } from "./adapter/index.ts";
-import { abbPendant } from "./pendant.ts";
+import { abbPendant } from "./virtual/pendant.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
 const PORTS = { egm: EGM_PORT, rws: RWS_PORT };
@@ -62,21 +62,17 @@ async function start(
   });
   if (started.kind === "taken") return started;
   const { controller } = started;
-  return {
-    kind: "started",
-    virtual: {
-      name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`,
-      robot,
-      ports: { egm, ...(controller.rws ? { rws: controller.rws.port } : {}) },
-      brakingTime_s: controller.brakingTime_s,
-      pendant: abbPendant(controller),
-      jointAngles: out => controller.neutral.jointAngles(out),
-      reboot() {
-        controller.reboot(REBOOT_S);
-      },
-      close() {
-        controller.close();
-      },
+  return startedDriver({
+    name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`,
+    robot,
+    ports: { egm, ...(controller.rws ? { rws: controller.rws.port } : {}) },
+    arm: { brakingTime_s: controller.brakingTime_s, jointAngles: out => controller.neutral.jointAngles(out) },
+    pendant: abbPendant(controller),
+    reboot: () => {
+      controller.reboot(REBOOT_S);
     },
-  };
+    close: () => {
+      controller.close();
+    },
+  });
 }

@@ -113,189 +113,249 @@ export function createSharedCell({
   between_m = BETWEEN_ROBOTS_M,
   yielded_m = YIELDED_M,
 }: SharedCellOptions = {}): SharedCell {
-  const members = new Set<Member>();
-  const solidCache = new SolidCache();
-  const solids = new Map<string, readonly LinkSolid[]>();
-  let opened = 0;
-  const solidsOf = (robot: Robot): readonly LinkSolid[] => {
-    const known = solids.get(robot.id) ?? linkSolids(robot);
-    solids.set(robot.id, known);
+  return sharedCellOf(new SharedCellState({ between_m, yielded_m }));
+}
+
+class SharedCellState {
+  readonly between_m: number;
+  readonly yielded_m: number;
+  readonly members = new Set<Member>();
+  readonly solidCache = new SolidCache();
+  readonly solids = new Map<string, readonly LinkSolid[]>();
+  opened = 0;
+
+  constructor({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIELDED_M }: SharedCellOptions = {}) {
+    this.between_m = between_m;
+    this.yielded_m = yielded_m;
+  }
+
+  solidsOf(robot: Robot): readonly LinkSolid[] {
+    const known = this.solids.get(robot.id) ?? linkSolids(robot);
+    this.solids.set(robot.id, known);
     return known;
-  };
+  }
 
-  function join(options: PlaceOptions): CellMember {
-    const { robot, name, id } = options;
-    const n = robot.arm.joints.length;
-    const stand = copyPose(options.worldFromBase);
-    const neighbours: Neighbour[] = [];
-    const q_rad = Float64Array.from(robot.home_rad);
-    const ahead_rad = Float64Array.from(robot.home_rad);
-    const collider = new CellCollider(
-      { worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
-      robot.arm,
-      solidCache,
-    );
-    const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
-
-    /** Distance below what must be kept, with both where they are put; Infinity when it is not below. */
-    function below(
-      to: Neighbour,
-      mine_rad: ArrayLike<number>,
-      its_rad: ArrayLike<number>,
-      kept_m: number,
-      exactly: boolean,
-    ): number {
-      if (to.picked !== collider.pairs) {
-        to.picked = collider.pairs;
-        to.pairs = collider.pairs.filter(
-          pair => robotAndCell(pair) && (pair.a.name.startsWith(`${to.id}/`) || pair.b.name.startsWith(`${to.id}/`)),
-        );
-      }
-      to.arm.place(its_rad, collider);
-      collider.place(mine_rad);
-      let least_m = Infinity;
-      let limit_m = kept_m;
-      for (const pair of to.pairs) {
-        const distance_m = collider.distanceOf(pair, limit_m, exactly ? 0 : limit_m);
-        if (distance_m >= limit_m) continue;
-        least_m = distance_m;
-        if (!exactly) return least_m;
-        limit_m = distance_m;
-      }
-      return least_m;
-    }
-    const yields = (to: Neighbour): boolean => to.member.moving && !(to.member.guarded && to.member.rank > member.rank);
-    /** What must be left between, errors of both shapes in it. */
-    const wanted = (to: Neighbour): number => between_m + (yields(to) ? yielded_m : 0) + to.error_m;
-
-    /** The nearest of what both may come to within the time they need to stop, below what is kept; else Infinity. */
-    function onTheWay(to: Neighbour, kept_m: number, exactly: boolean): number {
-      const its = to.member;
-      let least_m = below(to, q_rad, its.q_rad, kept_m, exactly);
-      const take = (distance_m: number): void => {
-        least_m = Math.min(least_m, distance_m);
-      };
-      if (least_m < kept_m && !exactly) return least_m;
-      take(below(to, ahead_rad, its.q_rad, kept_m, exactly));
-      if (!its.moving || (least_m < kept_m && !exactly)) return least_m;
-      take(below(to, ahead_rad, its.ahead_rad, kept_m, exactly));
-      take(below(to, q_rad, its.ahead_rad, kept_m, exactly));
-      if (!yields(to) || !its.path) return least_m;
-      for (let k = 1; k <= LOOKS; k++)
-        if (its.path((k / LOOKS) * braking_s, to.scratch)) take(below(to, ahead_rad, to.scratch, kept_m, exactly));
-      return least_m;
-    }
-
-    const member: Member = {
-      id,
-      options,
-      rank: opened++,
-      q_rad,
-      ahead_rad,
-      moving: false,
-      guarded: false,
-      path: null,
-      get others() {
-        return neighbours;
-      },
-      tell(now_rad, stop_rad) {
-        let apart_rad = 0;
-        for (let i = 0; i < n; i++) {
-          q_rad[i] = now_rad[i]!;
-          ahead_rad[i] = stop_rad[i]!;
-          apart_rad = Math.max(apart_rad, Math.abs(ahead_rad[i]! - q_rad[i]!));
-        }
-        member.moving = apart_rad > STILL_RAD;
-      },
-      begin() {
-        for (const to of neighbours) {
-          const kept_m = between_m + yielded_m + to.error_m;
-          const here_m = below(to, q_rad, to.member.q_rad, kept_m, true);
-          to.floor_m = here_m < kept_m ? here_m - NO_NEARER_M : Infinity;
-        }
-      },
-      tooNear() {
-        for (const to of neighbours) {
-          const kept_m = wanted(to);
-          const limit_m = Math.min(kept_m, to.floor_m);
-          if (to.floor_m !== Infinity && below(to, q_rad, to.member.q_rad, kept_m, false) >= kept_m)
-            to.floor_m = Infinity;
-          if (limit_m <= 0 || onTheWay(to, limit_m, false) >= limit_m) continue;
-          return cameNearRobot(
-            name,
-            to.name,
-            Math.max(0, onTheWay(to, limit_m, true) - to.error_m),
-            limit_m - to.error_m,
-            yields(to),
-          );
-        }
-        return null;
-      },
-      targetRefusal(target_rad) {
-        for (const to of neighbours) {
-          if (to.member.moving) continue;
-          const kept_m = between_m + to.error_m;
-          const there_m = below(to, target_rad, to.member.q_rad, kept_m, true);
-          // Away from where it stands too near already, it may go in small steps.
-          if (there_m < kept_m && there_m < below(to, q_rad, to.member.q_rad, kept_m, true))
-            return wouldStandNear(name, to.name, Math.max(0, there_m - to.error_m), between_m);
-        }
-        return null;
-      },
-      leave() {
-        members.delete(member);
-        for (const each of members) each.forget(member);
-      },
-      meet(other) {
-        const arm = new OtherArm(
-          other.id,
-          other.options.name,
-          other.options.robot,
-          solidsOf(other.options.robot),
-          other.options.worldFromBase,
-          other.q_rad,
-        );
-        const neighbour: Neighbour = {
-          id: other.id,
-          name: other.options.name,
-          joints: other.q_rad.length,
-          member: other,
-          arm,
-          scratch: new Float64Array(other.q_rad.length),
-          pairs: [],
-          picked: null,
-          floor_m: Infinity,
-          get moving() {
-            return other.moving || other.path !== null;
-          },
-          kept_m: between_m,
-          error_m: marginToLinks(robot, other.options.robot),
-          expected(in_s, out) {
-            if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
-          },
-          distance: (mine_rad, its_rad, cutoff_m) => below(neighbour, mine_rad, its_rad, cutoff_m, true),
-        };
-        neighbours.push(neighbour);
-        for (const object of arm.objects) collider.setObject(object satisfies CellObject);
-      },
-      forget(other) {
-        const at = neighbours.findIndex(each => each.member === other);
-        if (at < 0) return;
-        for (const object of neighbours[at]!.arm.objects) collider.removeObject(object.id);
-        neighbours.splice(at, 1);
-      },
-    };
-    for (const each of members) {
+  readonly join = (options: PlaceOptions): CellMember => {
+    const member = memberOf(this, options);
+    for (const each of this.members) {
       each.meet(member);
       member.meet(each);
     }
-    members.add(member);
+    this.members.add(member);
     return member;
-  }
-  return { join };
+  };
+}
+
+function sharedCellOf(own: SharedCellState): SharedCell {
+  return { join: own.join };
 }
 
 /** A robot whose joints would come to rest within this stands [rad]. */
 const STILL_RAD = 1e-4;
 /** Both robots are drawn: what each drawing may be off comes on top. */
 const marginToLinks = (a: Robot, b: Robot): number => a.shapeError_m + b.shapeError_m;
+
+/** One robot of a cell among the others. */
+function memberOf(cell: SharedCellState, options: PlaceOptions): Member {
+  return memberOfOf(new CellMemberState(cell, options));
+}
+
+class CellMemberState {
+  readonly cell: SharedCellState;
+  readonly options: PlaceOptions;
+  readonly robot: Robot;
+  readonly name: string;
+  readonly id: string;
+  readonly n: number;
+  readonly stand: Pose<"world", "base">;
+  readonly neighbours: Neighbour[] = [];
+  readonly q_rad: Float64Array;
+  readonly ahead_rad: Float64Array;
+  readonly collider: CellCollider;
+  readonly rank: number;
+  readonly braking_s: number;
+
+  constructor(cell: SharedCellState, options: PlaceOptions) {
+    this.cell = cell;
+    this.options = options;
+    this.robot = this.options.robot;
+    this.name = this.options.name;
+    this.id = this.options.id;
+    this.n = this.robot.arm.joints.length;
+    this.stand = copyPose(this.options.worldFromBase);
+    this.q_rad = Float64Array.from(this.robot.home_rad);
+    this.ahead_rad = Float64Array.from(this.robot.home_rad);
+    this.collider = new CellCollider(
+      {
+        worldFromBase: this.stand,
+        links: this.cell.solidsOf(this.robot),
+        objects: [],
+        allowedPairs: [],
+        shapeError_m: this.robot.shapeError_m,
+      },
+      this.robot.arm,
+      this.cell.solidCache,
+    );
+    this.rank = this.cell.opened++;
+    this.braking_s = this.options.brakingTime_s ?? hardBrakingTime_s(this.robot);
+  }
+
+  /** Distance below what must be kept, with both where they are put; Infinity when it is not below. */
+  below(
+    to: Neighbour,
+    mine_rad: ArrayLike<number>,
+    its_rad: ArrayLike<number>,
+    kept_m: number,
+    exactly: boolean,
+  ): number {
+    if (to.picked !== this.collider.pairs) {
+      to.picked = this.collider.pairs;
+      to.pairs = this.collider.pairs.filter(
+        pair => robotAndCell(pair) && (pair.a.name.startsWith(`${to.id}/`) || pair.b.name.startsWith(`${to.id}/`)),
+      );
+    }
+    to.arm.place(its_rad, this.collider);
+    this.collider.place(mine_rad);
+    let least_m = Infinity;
+    let limit_m = kept_m;
+    for (const pair of to.pairs) {
+      const distance_m = this.collider.distanceOf(pair, limit_m, exactly ? 0 : limit_m);
+      if (distance_m >= limit_m) continue;
+      least_m = distance_m;
+      if (!exactly) return least_m;
+      limit_m = distance_m;
+    }
+    return least_m;
+  }
+
+  yields(to: Neighbour): boolean {
+    return to.member.moving && !(to.member.guarded && to.member.rank > this.rank);
+  }
+
+  /** What must be left between, errors of both shapes in it. */
+  wanted(to: Neighbour): number {
+    return this.cell.between_m + (this.yields(to) ? this.cell.yielded_m : 0) + to.error_m;
+  }
+
+  /** The nearest of what both may come to within the time they need to stop, below what is kept; else Infinity. */
+  onTheWay(to: Neighbour, kept_m: number, exactly: boolean): number {
+    const its = to.member;
+    let least_m = this.below(to, this.q_rad, its.q_rad, kept_m, exactly);
+    const take = (distance_m: number): void => {
+      least_m = Math.min(least_m, distance_m);
+    };
+    if (least_m < kept_m && !exactly) return least_m;
+    take(this.below(to, this.ahead_rad, its.q_rad, kept_m, exactly));
+    if (!its.moving || (least_m < kept_m && !exactly)) return least_m;
+    take(this.below(to, this.ahead_rad, its.ahead_rad, kept_m, exactly));
+    take(this.below(to, this.q_rad, its.ahead_rad, kept_m, exactly));
+    if (!this.yields(to) || !its.path) return least_m;
+    for (let k = 1; k <= LOOKS; k++)
+      if (its.path((k / LOOKS) * this.braking_s, to.scratch))
+        take(this.below(to, this.ahead_rad, to.scratch, kept_m, exactly));
+    return least_m;
+  }
+}
+
+function memberOfOf(own: CellMemberState): Member {
+  const member: Member = {
+    id: own.id,
+    options: own.options,
+    rank: own.rank,
+    q_rad: own.q_rad,
+    ahead_rad: own.ahead_rad,
+    moving: false,
+    guarded: false,
+    path: null,
+    get others() {
+      return own.neighbours;
+    },
+    tell(now_rad, stop_rad) {
+      let apart_rad = 0;
+      for (let i = 0; i < own.n; i++) {
+        own.q_rad[i] = now_rad[i]!;
+        own.ahead_rad[i] = stop_rad[i]!;
+        apart_rad = Math.max(apart_rad, Math.abs(own.ahead_rad[i]! - own.q_rad[i]!));
+      }
+      member.moving = apart_rad > STILL_RAD;
+    },
+    begin: () => {
+      for (const to of own.neighbours) {
+        const kept_m = own.cell.between_m + own.cell.yielded_m + to.error_m;
+        const here_m = own.below(to, own.q_rad, to.member.q_rad, kept_m, true);
+        to.floor_m = here_m < kept_m ? here_m - NO_NEARER_M : Infinity;
+      }
+    },
+    tooNear() {
+      for (const to of own.neighbours) {
+        const kept_m = own.wanted(to);
+        const limit_m = Math.min(kept_m, to.floor_m);
+        if (to.floor_m !== Infinity && own.below(to, own.q_rad, to.member.q_rad, kept_m, false) >= kept_m)
+          to.floor_m = Infinity;
+        if (limit_m <= 0 || own.onTheWay(to, limit_m, false) >= limit_m) continue;
+        return cameNearRobot(
+          own.name,
+          to.name,
+          Math.max(0, own.onTheWay(to, limit_m, true) - to.error_m),
+          limit_m - to.error_m,
+          own.yields(to),
+        );
+      }
+      return null;
+    },
+    targetRefusal: target_rad => {
+      for (const to of own.neighbours) {
+        if (to.member.moving) continue;
+        const kept_m = own.cell.between_m + to.error_m;
+        const there_m = own.below(to, target_rad, to.member.q_rad, kept_m, true);
+        // Away from where it stands too near already, it may go in small steps.
+        if (there_m < kept_m && there_m < own.below(to, own.q_rad, to.member.q_rad, kept_m, true))
+          return wouldStandNear(own.name, to.name, Math.max(0, there_m - to.error_m), own.cell.between_m);
+      }
+      return null;
+    },
+    leave: () => {
+      own.cell.members.delete(member);
+      for (const each of own.cell.members) each.forget(member);
+    },
+    meet: other => {
+      const arm = new OtherArm(
+        other.id,
+        other.options.name,
+        other.options.robot,
+        own.cell.solidsOf(other.options.robot),
+        other.options.worldFromBase,
+        other.q_rad,
+      );
+      const neighbour: Neighbour = {
+        id: other.id,
+        name: other.options.name,
+        joints: other.q_rad.length,
+        member: other,
+        arm,
+        scratch: new Float64Array(other.q_rad.length),
+        pairs: [],
+        picked: null,
+        floor_m: Infinity,
+        get moving() {
+          return other.moving || other.path !== null;
+        },
+        kept_m: own.cell.between_m,
+        error_m: marginToLinks(own.robot, other.options.robot),
+        expected(in_s, out) {
+          if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
+        },
+        distance: (mine_rad, its_rad, cutoff_m) => own.below(neighbour, mine_rad, its_rad, cutoff_m, true),
+      };
+      own.neighbours.push(neighbour);
+      for (const object of arm.objects) own.collider.setObject(object satisfies CellObject);
+    },
+    forget(other) {
+      const at = own.neighbours.findIndex(each => each.member === other);
+      if (at < 0) return;
+      for (const object of own.neighbours[at]!.arm.objects) own.collider.removeObject(object.id);
+      own.neighbours.splice(at, 1);
+    },
+  };
+  return member;
+}

@@ -14,6 +14,7 @@ import {
   type RobotController,
   type Scheduler,
   type Step,
+  type Robot,
 } from "@twincell/core";
 import type { CellMember } from "../cell/index.ts";
 import { createGuard, PlannedPath, type Guard, type GuardState, type Commander } from "../guard/index.ts";
@@ -133,100 +134,134 @@ const SOON_S = 0.1;
  * guard's lease, enabling switch and link rules hold for them as for any motion.
  */
 export function createRobotConnection(options: RobotConnectionOptions): RobotConnection {
-  const { controller, scheduler } = options;
-  const { robot } = controller;
-  const n = robot.arm.joints.length;
-  const alarm_rad = options.alarm_rad ?? ALARM_RAD;
-  const name = options.name ?? controller.name;
-  const notices = listeners<Refusal>();
-  const real: RealController | null = "link" in controller ? controller : null;
-  let path: PlannedPath | null = null;
-  let alarmed = false;
-  let override = 1;
-  /** The same controller, which takes a text where steps are asked for. */
-  const handing: RobotController =
-    real?.runText === undefined
-      ? controller
-      : {
-          ...controller,
-          isMoving: () => controller.isMoving(),
-          run: (steps, context) => (steps instanceof TextOnItsWay ? steps.start() : controller.run(steps, context)),
-        };
-  const deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
+  return robotConnectionOf(new ConnectionState(options));
+}
 
+class ConnectionState {
+  readonly options: RobotConnectionOptions;
+  readonly controller: RobotController | RealController;
+  readonly scheduler: Scheduler;
+  readonly robot: Robot;
+  readonly n: number;
+  readonly alarm_rad: number;
+  readonly name: string;
+  readonly notices = listeners<Refusal>();
+  readonly real: RealController | null;
+  path: PlannedPath | null = null;
+  alarmed = false;
+  override = 1;
+  /** The same controller, which takes a text where steps are asked for. */
+  readonly handing: RobotController;
+  readonly deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
   // First of all: the guard asks where on its path the robot is.
-  const unwatch = controller.onSample(sample => {
-    ({ override } = sample);
-    path?.take(sample.q_rad);
-    deviation.plan_rad = path?.off_rad ?? NaN;
-    deviation.command_rad = sample.target_rad ? largest(sample.q_rad, sample.target_rad, n) : NaN;
-    const worst_rad = Math.max(orZero(deviation.plan_rad), orZero(deviation.command_rad));
-    if (worst_rad > alarm_rad && !alarmed) notices.call(deviates(name, worst_rad, alarm_rad));
-    alarmed = worst_rad > alarm_rad;
-  });
-  const guard = createGuard({
-    controller: handing,
-    scheduler,
-    ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}),
-    ...(real ? { linkDelay_s: LINK_DELAY_S } : {}),
-    ...(options.isSafe ? { isSafe: options.isSafe } : {}),
-    ...(options.place ? { place: options.place } : {}),
-    ...(options.watching === undefined ? {} : { watching: options.watching }),
-    ...(options.deadMan === undefined ? {} : { deadMan: options.deadMan }),
-    ...(options.silence_s === undefined ? {} : { silence_s: options.silence_s }),
-    ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
-    ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
-  });
-  const twin = createTwin({ real: controller, scheduler, name });
-  const ahead = createAhead({ robot, name, scheduler, place: options.place ?? null });
-  const unlink = real?.onLink(({ state }) => {
-    if (state === "lost") guard.linkLost();
-  });
-  const unnotice = guard.onNotice(why => {
-    notices.call(why);
-  });
+  readonly unwatch: () => void;
+  readonly guard: Guard;
+  readonly twin: Twin;
+  readonly ahead: Ahead;
+  readonly unlink: (() => void) | undefined;
+  readonly unnotice: () => void;
+
+  constructor(options: RobotConnectionOptions) {
+    this.options = options;
+    this.controller = this.options.controller;
+    this.scheduler = this.options.scheduler;
+    this.robot = this.controller.robot;
+    this.n = this.robot.arm.joints.length;
+    this.alarm_rad = this.options.alarm_rad ?? ALARM_RAD;
+    this.name = this.options.name ?? this.controller.name;
+    this.real = "link" in this.controller ? this.controller : null;
+    this.handing =
+      this.real?.runText === undefined
+        ? this.controller
+        : {
+            ...this.controller,
+            isMoving: () => this.controller.isMoving(),
+            run: (steps, context) =>
+              steps instanceof TextOnItsWay ? steps.start() : this.controller.run(steps, context),
+          };
+    this.unwatch = this.controller.onSample(sample => {
+      ({ override: this.override } = sample);
+      this.path?.take(sample.q_rad);
+      this.deviation.plan_rad = this.path?.off_rad ?? NaN;
+      this.deviation.command_rad = sample.target_rad ? largest(sample.q_rad, sample.target_rad, this.n) : NaN;
+      const worst_rad = Math.max(orZero(this.deviation.plan_rad), orZero(this.deviation.command_rad));
+      if (worst_rad > this.alarm_rad && !this.alarmed)
+        this.notices.call(deviates(this.name, worst_rad, this.alarm_rad));
+      this.alarmed = worst_rad > this.alarm_rad;
+    });
+    this.guard = createGuard({
+      controller: this.handing,
+      scheduler: this.scheduler,
+      ...(this.options.flangeFromTcp ? { flangeFromTcp: this.options.flangeFromTcp } : {}),
+      ...(this.real ? { linkDelay_s: LINK_DELAY_S } : {}),
+      ...(this.options.isSafe ? { isSafe: this.options.isSafe } : {}),
+      ...(this.options.place ? { place: this.options.place } : {}),
+      ...(this.options.watching === undefined ? {} : { watching: this.options.watching }),
+      ...(this.options.deadMan === undefined ? {} : { deadMan: this.options.deadMan }),
+      ...(this.options.silence_s === undefined ? {} : { silence_s: this.options.silence_s }),
+      ...(this.options.heartbeat_s === undefined ? {} : { heartbeat_s: this.options.heartbeat_s }),
+      ...(this.options.brakingTime_s === undefined ? {} : { brakingTime_s: this.options.brakingTime_s }),
+    });
+    this.twin = createTwin({ real: this.controller, scheduler: this.scheduler, name: this.name });
+    this.ahead = createAhead({
+      robot: this.robot,
+      name: this.name,
+      scheduler: this.scheduler,
+      place: this.options.place ?? null,
+    });
+    this.unlink = this.real?.onLink(({ state }) => {
+      if (state === "lost") this.guard.linkLost();
+    });
+    this.unnotice = this.guard.onNotice(why => {
+      this.notices.call(why);
+    });
+  }
 
   /**
    * Calls `then` at once when the robot stands, else stops it and waits until it does, or until its braking time is
    * over.
    */
-  function atStandstill(then: () => void): void {
-    if (guard.state.watching || !controller.isMoving()) {
+  atStandstill(then: () => void): void {
+    if (this.guard.state.watching || !this.controller.isMoving()) {
       then();
       return;
     }
-    guard.stop();
-    const until_s = options.scheduler.now_s() + (options.brakingTime_s ?? BRAKING_S);
-    const off = options.scheduler.every(LOOK_S, () => {
-      if (controller.isMoving() && real?.isConnected !== false && options.scheduler.now_s() < until_s) return;
+    this.guard.stop();
+    const until_s = this.options.scheduler.now_s() + (this.options.brakingTime_s ?? BRAKING_S);
+    const off = this.options.scheduler.every(LOOK_S, () => {
+      if (this.controller.isMoving() && this.real?.isConnected !== false && this.options.scheduler.now_s() < until_s)
+        return;
       off();
       then();
     });
   }
 
   /** Its text, where there is one and the controller takes texts. */
-  const textOf = ({ files }: RobotJob): readonly EmittedFile[] | null => (real?.runText && files ? files : null);
+  textOf({ files }: RobotJob): readonly EmittedFile[] | null {
+    return this.real?.runText && files ? files : null;
+  }
+
   /** Lets the robot do it, compared with its plan all the way. */
-  async function follow(
+  async follow(
     seat: Commander,
     steps: Iterable<Step>,
     { program, plan, findings = [] }: RobotJob,
   ): Promise<CommandOutcome> {
-    const following = plan ? new PlannedPath(plan, n) : null;
-    path = following;
-    guard.follow(following);
-    if (options.place && plan && following) {
-      options.place.path = (in_s, out) => {
-        samplePlan(plan, Math.min(plan.duration_s, following.at + in_s * override), out);
+    const following = plan ? new PlannedPath(plan, this.n) : null;
+    this.path = following;
+    this.guard.follow(following);
+    if (this.options.place && plan && following) {
+      this.options.place.path = (in_s, out) => {
+        samplePlan(plan, Math.min(plan.duration_s, following.at + in_s * this.override), out);
         return true;
       };
     }
     const progress = { at_s: 0, rate: 1 };
     const stopLooking =
       plan && following
-        ? ahead.follow(plan, findings, () => {
+        ? this.ahead.follow(plan, findings, () => {
             progress.at_s = following.at;
-            progress.rate = override;
+            progress.rate = this.override;
             return progress;
           })
         : null;
@@ -234,44 +269,46 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
       return await seat.robot.run(steps, program);
     } finally {
       stopLooking?.();
-      path = null;
-      guard.follow(null);
-      if (options.place) options.place.path = null;
+      this.path = null;
+      this.guard.follow(null);
+      if (this.options.place) this.options.place.path = null;
     }
   }
+}
 
+function robotConnectionOf(own: ConnectionState): RobotConnection {
   return {
-    name,
-    controller,
-    guard,
-    twin,
-    deviation,
-    ahead,
-    link: real?.link ?? null,
-    commander: who => guard.seat(who),
-    connect: () => real?.connect() ?? Promise.resolve(DONE),
+    name: own.name,
+    controller: own.controller,
+    guard: own.guard,
+    twin: own.twin,
+    deviation: own.deviation,
+    ahead: own.ahead,
+    link: own.real?.link ?? null,
+    commander: who => own.guard.seat(who),
+    connect: () => own.real?.connect() ?? Promise.resolve(DONE),
     disconnect() {
-      atStandstill(() => {
-        real?.disconnect();
-        if (real) guard.linkLost(disconnected(name));
+      own.atStandstill(() => {
+        own.real?.disconnect();
+        if (own.real) own.guard.linkLost(disconnected(own.name));
       });
     },
     async carryOut(seat, job) {
-      const files = textOf(job);
-      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), job);
+      const files = own.textOf(job);
+      return own.follow(seat, files ? new TextOnItsWay(() => own.real!.runText!(files)) : job.steps(), job);
     },
     async arm(seat, job) {
       const why = seat.readiness();
       if (why) return { kind: "refused", why };
-      const files = textOf(job);
-      const handed = files ? await real?.handText?.(files) : undefined;
+      const files = own.textOf(job);
+      const handed = files ? await own.real?.handText?.(files) : undefined;
       if (handed?.kind === "refused") return handed;
       if (!handed) {
         // No step of it is carried out: it only says whether one would be.
-        const unfit = await controller.run([], job.program);
+        const unfit = await own.controller.run([], job.program);
         if (unfit.kind !== "done") return { kind: "refused", why: unfit.why };
       }
-      const start = handed ? handed.start : files ? () => real!.runText!(files) : null;
+      const start = handed ? handed.start : files ? () => own.real!.runText!(files) : null;
       return {
         kind: "armed",
         movesAtOnce:
@@ -282,23 +319,23 @@ export function createRobotConnection(options: RobotConnectionOptions): RobotCon
         drop() {
           handed?.drop();
         },
-        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), job),
+        start: () => own.follow(seat, start ? new TextOnItsWay(start) : job.steps(), job),
       };
     },
-    onSample: listen => twin.onSample(listen),
-    onLink: listen => real?.onLink(listen) ?? (() => undefined),
-    onGuard: listen => guard.onChange(listen),
-    onNotice: listen => notices.add(listen),
+    onSample: listen => own.twin.onSample(listen),
+    onLink: listen => own.real?.onLink(listen) ?? (() => undefined),
+    onGuard: listen => own.guard.onChange(listen),
+    onNotice: listen => own.notices.add(listen),
     close(then) {
-      atStandstill(() => {
-        unwatch();
-        unlink?.();
-        unnotice();
-        ahead.close();
-        guard.close();
-        twin.close();
-        controller.close();
-        notices.clear();
+      own.atStandstill(() => {
+        own.unwatch();
+        own.unlink?.();
+        own.unnotice();
+        own.ahead.close();
+        own.guard.close();
+        own.twin.close();
+        own.controller.close();
+        own.notices.clear();
         then?.();
       });
     },

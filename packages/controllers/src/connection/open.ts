@@ -1,9 +1,15 @@
+import type { VendorVirtual } from "../driver/brand.ts";
+import type { ControllerAdapter } from "../driver/adapter.ts";
+import type { CellMember } from "../cell/shared-cell.ts";
+import type { Cannot } from "../driver/cannot.ts";
 import {
   falseIdentity,
   pose,
+  samplePlan,
   unrolled,
   type CommandOutcome,
   type Dialect,
+  type Plan,
   type Pose,
   type Program,
   type Refusal,
@@ -11,6 +17,7 @@ import {
   type Scheduler,
   type Signals,
   type Step,
+  type RealController,
 } from "@twincell/core";
 import {
   createRealController,
@@ -101,6 +108,8 @@ export interface VendorConnection extends RobotConnection {
   takes(program: Program): CommandOutcome;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
+  /** Why it would not be run from where the program that runs now ends, or the robot stands; null where it would. */
+  judge(program: Program, asText: boolean, despite?: readonly string[]): Promise<Refusal | null>;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   stop(emergency: boolean): void;
@@ -146,142 +155,224 @@ function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
 
 /** Opens a station of that brand. It is not connected yet. */
 export async function openRobotConnection(options: OpenOptions): Promise<OpenedDriver> {
-  const { brand, robot, scheduler, dialect, worldFromBase } = options;
+  const { brand, robot, worldFromBase } = options;
   const stranger = otherRobot(brand, robot);
   if (stranger !== null) return { kind: "refused", why: stranger };
   const readCell = (document: unknown): CellRead =>
     options.readCell?.(document, robot, worldFromBase) ?? { kind: "refused", why: readsNoCells };
-  let cell: CellDefinition | null = null;
-  if (options.cell !== undefined) {
-    const read = readCell(options.cell);
-    if (read.kind === "refused") return read;
-    ({ cell } = read);
-  }
+  const read = options.cell === undefined ? null : readCell(options.cell);
+  if (read?.kind === "refused") return read;
   const deaf = brand.cannot.find(({ row }) => row === "watch");
   if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
-  const near = options.at === undefined ? memoryNetwork(scheduler) : null;
-  const network = options.at?.network ?? near!;
-  const host = options.at?.host ?? "127.0.0.1";
-  let opened: Extract<VirtualPendantOpened, { kind: "opened" }> | null = null;
-  if (near) {
-    const started = await openVirtualPendant({
-      brand,
-      robot,
-      scheduler,
-      network,
-      host,
-      interpret: text => dialect.interpret(text, robot, worldFromBase),
-    });
-    if (started.kind === "taken") {
-      near.close();
-      return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } };
-    }
-    opened = started;
-  }
-  const virtual = opened?.virtual;
-  const virtualPendant = opened?.cabinet ?? null;
-  const ports = options.at?.ports ?? virtual?.ports;
-  const name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
-  let isWatched = options.watching === true;
-  const adapter = brand.face({
+  const wire = options.at ? { ...options.at, virtual: null, close: null } : await virtualBeside(options);
+  if ("kind" in wire) return wire;
+  return { kind: "opened", station: vendorConnection(options, wire, readCell, read?.cell ?? null) };
+}
+
+/** The wire to a controller, and what is at its other end where that is virtual. */
+interface Wire {
+  readonly network: Network;
+  readonly host: string;
+  readonly ports?: PortNumbers;
+  readonly data?: ControllerData;
+  readonly virtual: Extract<VirtualPendantOpened, { kind: "opened" }> | null;
+  readonly close: (() => void) | null;
+}
+/** A virtual controller in memory. */
+async function virtualBeside(options: OpenOptions): Promise<Wire | Extract<OpenedDriver, { kind: "refused" }>> {
+  const { brand, robot, scheduler, dialect, worldFromBase } = options;
+  const network = memoryNetwork(scheduler);
+  const host = "127.0.0.1";
+  const started = await openVirtualPendant({
+    brand,
     robot,
     scheduler,
     network,
     host,
-    ...(ports ? { ports } : {}),
-    ...(options.at?.data ? { data: options.at.data } : {}),
-    isWatched: () => isWatched,
+    interpret: text => dialect.interpret(text, robot, worldFromBase),
   });
-  const controller = createRealController({
-    face: adapter,
-    scheduler,
-    name,
-    ...(worldFromBase ? { worldFromBase } : {}),
-  });
-  const place = options.shared?.cell.join({
-    id: options.id,
-    name,
-    robot,
-    worldFromBase: options.shared.stand,
-    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
-  });
-  const station = createRobotConnection({
-    controller,
-    scheduler,
-    name,
-    silence_s: () => adapter.stale_s,
-    ...(place ? { place } : {}),
-    ...(options.watching === undefined ? {} : { watching: options.watching }),
-    ...(worldFromBase ? { worldFromBase } : {}),
-    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
-    ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
-    deadMan: options.deadMan ?? near === null,
-  });
-  let clear: ClearOf | null = null;
-  function keepClearOf(definition: CellDefinition): void {
-    cell = definition;
-    const before = clear;
-    clear = clearOf(withLinks(definition, robot), robot);
-    if (before) clear.goOnFrom(before);
-    const { isSafe, contactsAt, gripper } = clear;
+  if (started.kind === "taken") {
+    network.close();
+    return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } };
+  }
+  return {
+    network,
+    host,
+    ports: started.virtual.ports,
+    virtual: started,
+    close: () => {
+      started.close();
+      network.close();
+    },
+  };
+}
+
+function vendorConnection(
+  options: OpenOptions,
+  wire: Wire,
+  readCell: (document: unknown) => CellRead,
+  firstCell: CellDefinition | null,
+): VendorConnection {
+  return vendorConnectionOf(new VendorConnectionState(options, wire, readCell, firstCell));
+}
+
+class VendorConnectionState {
+  readonly options: OpenOptions;
+  readonly wire: Wire;
+  readonly readCell: (document: unknown) => CellRead;
+  readonly firstCell: CellDefinition | null;
+  readonly brand: DriverKind;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly dialect: Dialect;
+  readonly worldFromBase: Pose<"world", "base"> | undefined;
+  readonly deaf: Cannot | undefined;
+  cell: CellDefinition | null;
+  readonly virtual: VendorVirtual | undefined;
+  readonly virtualPendant: VirtualPendant | null;
+  readonly name: string;
+  isWatched: boolean;
+  readonly adapter: ControllerAdapter;
+  readonly controller: RealController;
+  readonly place: CellMember | undefined;
+  readonly station: RobotConnection;
+  clear: ClearOf | null = null;
+  /**
+   * Whether objects are known that it must not touch; without a cell it is kept from itself alone, and that is said.
+   */
+  knowsCell: boolean;
+  readonly notices = listeners<Refusal>();
+  readonly unnotice: () => void;
+  /** Stops that were asked for: a program that is still being planned then does not begin after it. */
+  stops = 0;
+  /** Where the program that runs, or ran last, ends. */
+  #end_rad: Float64Array | null = null;
+
+  constructor(
+    options: OpenOptions,
+    wire: Wire,
+    readCell: (document: unknown) => CellRead,
+    firstCell: CellDefinition | null,
+  ) {
+    this.options = options;
+    this.wire = wire;
+    this.readCell = readCell;
+    this.firstCell = firstCell;
+    this.brand = this.options.brand;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.dialect = this.options.dialect;
+    this.worldFromBase = this.options.worldFromBase;
+    this.deaf = this.brand.cannot.find(({ row }) => row === "watch");
+    this.cell = this.firstCell;
+    this.virtual = this.wire.virtual?.virtual;
+    this.virtualPendant = this.wire.virtual?.cabinet ?? null;
+    this.name = this.options.name ?? `${this.wire.virtual ? "Virtual " : ""}${this.robot.name}`;
+    this.isWatched = this.options.watching === true;
+    this.adapter = this.brand.face({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      network: this.wire.network,
+      host: this.wire.host,
+      ...(this.wire.ports ? { ports: this.wire.ports } : {}),
+      ...(this.wire.data ? { data: this.wire.data } : {}),
+      isWatched: () => this.isWatched,
+    });
+    this.controller = createRealController({
+      face: this.adapter,
+      scheduler: this.scheduler,
+      name: this.name,
+      ...(this.worldFromBase ? { worldFromBase: this.worldFromBase } : {}),
+    });
+    this.place = this.options.shared?.cell.join({
+      id: this.options.id,
+      name: this.name,
+      robot: this.robot,
+      worldFromBase: this.options.shared.stand,
+      ...(this.virtual ? { brakingTime_s: this.virtual.brakingTime_s } : {}),
+    });
+    this.station = createRobotConnection({
+      controller: this.controller,
+      scheduler: this.scheduler,
+      name: this.name,
+      silence_s: () => this.adapter.stale_s,
+      ...(this.place ? { place: this.place } : {}),
+      ...(this.options.watching === undefined ? {} : { watching: this.options.watching }),
+      ...(this.worldFromBase ? { worldFromBase: this.worldFromBase } : {}),
+      ...(this.virtual ? { brakingTime_s: this.virtual.brakingTime_s } : {}),
+      ...(this.options.heartbeat_s === undefined ? {} : { heartbeat_s: this.options.heartbeat_s }),
+      deadMan: this.options.deadMan ?? this.wire.virtual === null,
+    });
+    this.keepClearOf(
+      this.cell ?? {
+        worldFromBase: this.worldFromBase ?? pose(),
+        objects: [],
+        allowedPairs: [],
+        shapeError_m: this.robot.shapeError_m,
+      },
+    );
+    this.knowsCell = this.options.cell !== undefined;
+    this.unnotice = this.station.onNotice(why => {
+      this.notices.call(why);
+    });
+  }
+
+  keepClearOf(definition: CellDefinition): void {
+    this.cell = definition;
+    const before = this.clear;
+    this.clear = clearOf(withLinks(definition, this.robot), this.robot);
+    if (before) this.clear.goOnFrom(before);
+    const { isSafe, contactsAt, gripper } = this.clear;
     const { flangeFromGrip } = definition;
-    station.guard.setCell({
+    this.station.guard.setCell({
       isSafe,
       contactsAt,
       gripper,
       ...(flangeFromGrip ? { flangeFromTcp: flangeFromGrip as Pose as Pose<"flange", "tcp"> } : {}),
     });
   }
-  keepClearOf(
-    cell ?? { worldFromBase: worldFromBase ?? pose(), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
-  );
-  /**
-   * Whether objects are known that it must not touch; without a cell it is kept from itself alone, and that is said.
-   */
-  let knowsCell = options.cell !== undefined;
-  const notices = listeners<Refusal>();
-  const unnotice = station.onNotice(why => {
-    notices.call(why);
-  });
+
   /**
    * What of a program an open connection cannot be told step by step; null where it goes there as text, which its
    * language has been asked about.
    */
-  const unsayable = (program: Program, asText: boolean): Refusal | null => {
-    if (!controller.isConnected || (asText && controller.runText)) return null;
-    const terminal = terminalsOf(program, brand);
+  unsayable(program: Program, asText: boolean): Refusal | null {
+    if (!this.controller.isConnected || (asText && this.controller.runText)) return null;
+    const terminal = terminalsOf(program, this.brand);
     return stepsRefusal(
       [...reachableSteps(program)].map(step => withLines(step, terminal)),
-      controller,
+      this.controller,
     );
-  };
+  }
+
   /**
    * The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not
    * sent.
    */
-  async function jobOf(
+  async jobOf(
     program: Program,
     asText: boolean,
+    from_rad?: Float64Array,
   ): Promise<
     | { readonly kind: "job"; readonly job: RobotJob; readonly stuck: Refusal | null }
     | { readonly kind: "refused"; readonly why: Refusal }
   > {
-    const start_rad = controller.jointAngles().slice();
-    const held = clear?.held();
-    const laid = await (options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
+    const start_rad = from_rad ?? this.controller.jointAngles().slice();
+    const held = this.clear?.held();
+    const laid = await (this.options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
       program,
-      robot,
+      robot: this.robot,
       start_rad,
-      ...(worldFromBase ? { worldFromBase } : {}),
-      ...(cell ? { cell: held ? { ...cell, held } : cell } : {}),
-      ...(asText && controller.runText ? { dialect } : {}),
+      ...(this.worldFromBase ? { worldFromBase: this.worldFromBase } : {}),
+      ...(this.cell ? { cell: held ? { ...this.cell, held } : this.cell } : {}),
+      ...(asText && this.controller.runText ? { dialect: this.dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
-    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
-      return { kind: "refused", why: movedMeanwhile(name) };
+    if (!from_rad && this.controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+      return { kind: "refused", why: movedMeanwhile(this.name) };
     const job: RobotJob = {
       program,
-      steps: () => atTerminals(program, brand, controller.signals),
+      steps: () => atTerminals(program, this.brand, this.controller.signals),
       findings: laid.findings,
       bad: laid.bad,
       carried: laid.carried,
@@ -290,148 +381,174 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     };
     return { kind: "job", job, stuck: laid.stuck };
   }
+
   /**
    * The first thing that keeps a planned program from being sent: a red finding that nobody has agreed to, or a robot
    * that stands in its way. With others in a common start, robots that stand now may move then.
    */
-  function blockedBy(
+  blockedBy(
     { plan, findings = [], bad = [] }: RobotJob,
     despite: readonly string[],
     withOthers: boolean,
   ): Refusal | null {
     if (!plan) return null;
     const { blocked } = new LookAhead({
-      name,
+      name: this.name,
       plan,
       findings,
       bad: bad.filter(({ code }) => !despite.includes(code)),
-      place: withOthers ? null : (place ?? null),
-      joints: robot.arm.joints.length,
+      place: withOthers ? null : (this.place ?? null),
+      joints: this.robot.arm.joints.length,
     }).preview();
     return blocked && !despite.includes(blocked.code) ? pathBlocked(blocked) : null;
   }
+
   /** While it runs the guard knows which parts the program takes, and where it puts them. */
-  async function carrying({ carried = [] }: RobotJob, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
-    clear?.begin(carried);
+  async carrying({ carried = [] }: RobotJob, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
+    this.clear?.begin(carried);
     try {
       return await go();
     } finally {
-      clear?.end();
+      this.clear?.end();
     }
   }
-  /** Stops that were asked for: a program that is still being planned then does not begin after it. */
-  let stops = 0;
+
+  async run(
+    commander: Commander,
+    program: Program,
+    asText: boolean,
+    despite: readonly string[],
+  ): Promise<CommandOutcome> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return refused(unsaid);
+    const before = this.stops;
+    const answer = await this.jobOf(program, asText);
+    if (answer.kind === "refused") return answer;
+    if (this.stops !== before) return refused(stoppedMeanwhile(this.name));
+    // What cannot be planned cannot be checked: it is not sent to find out where it ends.
+    if (answer.stuck) return refused(answer.stuck);
+    const blocked = this.blockedBy(answer.job, despite, false);
+    this.#end_rad = answer.job.plan ? endOf(answer.job.plan, this.robot) : null;
+    return blocked ? refused(blocked) : this.carrying(answer.job, () => this.station.carryOut(commander, answer.job));
+  }
+
+  async judge(program: Program, asText: boolean, despite: readonly string[]): Promise<Refusal | null> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return unsaid;
+    const answer = await this.jobOf(program, asText, this.#end_rad ?? this.controller.jointAngles().slice());
+    return answer.kind === "refused" ? answer.why : (answer.stuck ?? this.blockedBy(answer.job, despite, false));
+  }
+
+  async preview(program: Program): Promise<CommandOutcome> {
+    const unsaid = this.unsayable(program, true);
+    if (unsaid) return refused(unsaid);
+    const answer = await this.jobOf(program, false);
+    if (answer.kind === "refused") return answer;
+    const {
+      job: { plan, findings = [], bad = [] },
+      stuck,
+    } = answer;
+    if (!plan) return refused(stuck!);
+    const { blocked, told } = this.station.ahead.preview(plan, findings, bad);
+    const first = blocked ?? told;
+    return first
+      ? refused({
+          ...pathBlocked(first),
+          hint: blocked
+            ? "It would not be sent. Clear the way, or change the program."
+            : "It would be sent all the same; this is only told.",
+        })
+      : DONE;
+  }
+
+  async prepare(
+    commander: Commander,
+    program: Program,
+    asText: boolean,
+    despite: readonly string[],
+  ): Promise<PreparedRun> {
+    const unsaid = this.unsayable(program, asText);
+    if (unsaid) return { kind: "refused", why: unsaid };
+    const before = this.stops;
+    const answer = await this.jobOf(program, asText);
+    if (answer.kind === "refused") return answer;
+    if (this.stops !== before) return { kind: "refused", why: stoppedMeanwhile(this.name) };
+    const why = answer.stuck ?? this.blockedBy(answer.job, despite, true);
+    if (why) return { kind: "refused", why };
+    const armed = await this.station.arm(commander, answer.job);
+    return armed.kind === "armed" ? { ...armed, start: () => this.carrying(answer.job, () => armed.start()) } : armed;
+  }
+}
+
+function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
+  const { virtualPendant } = own;
   return {
-    kind: "opened",
-    station: {
-      ...station,
-      words: {
-        id: options.id,
-        name,
-        brand: brand.id,
-        robot: robot.id,
-        virtual: virtualPendant !== null,
-        watchdog:
-          adapter.watchdog.kind === "robot"
-            ? `The robot stops by itself within ${Math.round(adapter.watchdog.within_s * 1000)} ms.`
-            : `The robot does not stop by itself: ${adapter.watchdog.because}`,
-      },
-      pendant: virtualPendant,
-      plug:
-        virtualPendant &&
-        (pulled => {
-          void virtualPendant.act("", { do: "trouble", unplugged: pulled });
-        }),
-      async connect() {
-        const outcome = await station.connect();
-        if (outcome.kind === "done" && !knowsCell && !station.guard.state.watching) notices.call(noCell(name));
-        return outcome;
-      },
-      onNotice: listen => notices.add(listen),
-      get kept() {
-        return { cell: knowsCell, kept_m: clear?.kept_m ?? 0 };
-      },
-      stop(emergency) {
-        stops++;
-        station.guard.stop(emergency);
-      },
-      setCell(document) {
-        const read = readCell(document);
-        if (read.kind === "refused") return read;
-        keepClearOf(read.cell);
-        knowsCell = true;
-        return DONE;
-      },
-      async watch(commander, on) {
-        const { state } = station.guard;
-        if (on === state.watching) return DONE;
-        if (deaf && on) return cannotWatch(brand.name, deaf.because);
-        if (on) {
-          const turned = commander.watch(true);
-          if (turned.kind !== "done") return turned;
-        }
-        isWatched = on;
-        const rejoined = await rejoin(station);
-        return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
-      },
-      async run(commander, program, asText, despite = []) {
-        const unsaid = unsayable(program, asText);
-        if (unsaid) return refused(unsaid);
-        const before = stops;
-        const answer = await jobOf(program, asText);
-        if (answer.kind === "refused") return answer;
-        if (stops !== before) return refused(stoppedMeanwhile(name));
-        // What cannot be planned cannot be checked: it is not sent to find out where it ends.
-        if (answer.stuck) return refused(answer.stuck);
-        const blocked = blockedBy(answer.job, despite, false);
-        return blocked ? refused(blocked) : carrying(answer.job, () => station.carryOut(commander, answer.job));
-      },
-      takes(program) {
-        const why = unsayable(program, false);
-        return why ? refused(why) : DONE;
-      },
-      async preview(program) {
-        const unsaid = unsayable(program, true);
-        if (unsaid) return refused(unsaid);
-        const answer = await jobOf(program, false);
-        if (answer.kind === "refused") return answer;
-        const {
-          job: { plan, findings = [], bad = [] },
-          stuck,
-        } = answer;
-        if (!plan) return refused(stuck!);
-        const { blocked, told } = station.ahead.preview(plan, findings, bad);
-        const first = blocked ?? told;
-        return first
-          ? refused({
-              ...pathBlocked(first),
-              hint: blocked
-                ? "It would not be sent. Clear the way, or change the program."
-                : "It would be sent all the same; this is only told.",
-            })
-          : DONE;
-      },
-      async prepare(commander, program, asText, despite = []) {
-        const unsaid = unsayable(program, asText);
-        if (unsaid) return { kind: "refused", why: unsaid };
-        const before = stops;
-        const answer = await jobOf(program, asText);
-        if (answer.kind === "refused") return answer;
-        if (stops !== before) return { kind: "refused", why: stoppedMeanwhile(name) };
-        const why = answer.stuck ?? blockedBy(answer.job, despite, true);
-        if (why) return { kind: "refused", why };
-        const armed = await station.arm(commander, answer.job);
-        return armed.kind === "armed" ? { ...armed, start: () => carrying(answer.job, () => armed.start()) } : armed;
-      },
-      close(then) {
-        station.close(() => {
-          unnotice();
-          notices.clear();
-          opened?.close();
-          near?.close();
-          then?.();
-        });
-      },
+    ...own.station,
+    words: {
+      id: own.options.id,
+      name: own.name,
+      brand: own.brand.id,
+      robot: own.robot.id,
+      virtual: own.virtualPendant !== null,
+      watchdog:
+        own.adapter.watchdog.kind === "robot"
+          ? `The robot stops by itself within ${Math.round(own.adapter.watchdog.within_s * 1000)} ms.`
+          : `The robot does not stop by itself: ${own.adapter.watchdog.because}`,
+    },
+    pendant: own.virtualPendant,
+    plug:
+      virtualPendant &&
+      (pulled => {
+        void virtualPendant.act("", { do: "trouble", unplugged: pulled });
+      }),
+    async connect() {
+      const outcome = await own.station.connect();
+      if (outcome.kind === "done" && !own.knowsCell && !own.station.guard.state.watching)
+        own.notices.call(noCell(own.name));
+      return outcome;
+    },
+    onNotice: listen => own.notices.add(listen),
+    get kept() {
+      return { cell: own.knowsCell, kept_m: own.clear?.kept_m ?? 0 };
+    },
+    stop(emergency) {
+      own.stops++;
+      own.station.guard.stop(emergency);
+    },
+    setCell(document) {
+      const read = own.readCell(document);
+      if (read.kind === "refused") return read;
+      own.keepClearOf(read.cell);
+      own.knowsCell = true;
+      return DONE;
+    },
+    async watch(commander, on) {
+      const { state } = own.station.guard;
+      if (on === state.watching) return DONE;
+      if (own.deaf && on) return cannotWatch(own.brand.name, own.deaf.because);
+      if (on) {
+        const turned = commander.watch(true);
+        if (turned.kind !== "done") return turned;
+      }
+      own.isWatched = on;
+      const rejoined = await rejoin(own.station);
+      return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
+    },
+    run: (commander, program, asText, despite = []) => own.run(commander, program, asText, despite),
+    judge: (program, asText, despite = []) => own.judge(program, asText, despite),
+    takes(program) {
+      const why = own.unsayable(program, false);
+      return why ? refused(why) : DONE;
+    },
+    preview: program => own.preview(program),
+    prepare: (commander, program, asText, despite = []) => own.prepare(commander, program, asText, despite),
+    close(then) {
+      own.station.close(() => {
+        own.unnotice();
+        own.notices.clear();
+        own.wire.close?.();
+        then?.();
+      });
     },
   };
 }
@@ -471,6 +588,13 @@ const cannotWatch = (brand: string, because: string): { readonly kind: "refused"
     hint: "Open it to command; it moves only when it is told to.",
   },
 });
+
+/** Posture at the end of a plan. */
+function endOf(plan: Plan, robot: Robot): Float64Array {
+  const q_rad = new Float64Array(robot.arm.joints.length);
+  samplePlan(plan, plan.duration_s, q_rad);
+  return q_rad;
+}
 
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: RobotConnection): Promise<CommandOutcome> {

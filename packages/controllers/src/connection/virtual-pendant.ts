@@ -10,8 +10,16 @@ import {
   type Refusal,
   type Robot,
   type Scheduler,
+  type Joint,
 } from "@twincell/core";
-import type { DriverKind, VendorVirtual, VendorVirtualOptions, KeyPosition, PendantShown } from "../driver/index.ts";
+import type {
+  DriverKind,
+  VendorVirtual,
+  VendorVirtualOptions,
+  KeyPosition,
+  PendantShown,
+  Pendant,
+} from "../driver/index.ts";
 import { emulateNetwork, type Network, type FaultInjection } from "../transport/index.ts";
 import { DONE, refused } from "../outcomes.ts";
 
@@ -147,232 +155,287 @@ function virtualPendantOf(
   outside: ReturnType<typeof emulateNetwork>,
   scheduler: Scheduler,
 ): { readonly cabinet: VirtualPendant; close(): void } {
-  const { pendant, robot } = virtual;
-  const { joints } = robot.arm;
-  const q_rad = new Float64Array(joints.length);
-  const last_rad = virtual.jointAngles().slice();
-  const at = placesOf(robot);
-  const holding = new Map<string, number>();
-  let jog: Jog | null = null;
-  let pressed = false;
-  let gateOpen = false;
-  let near = false;
-  let moving = false;
-  let says = "";
-  const isManual = (): boolean => pendant.keys.find(({ id }) => id === pendant.shown.key)?.mode === "manual";
+  return servedPendantOf(new ServedPendantState(brand, host, virtual, outside, scheduler));
+}
 
-  function endJog(outcome: CommandOutcome = DONE): void {
-    const ended = jog;
-    jog = null;
-    if (ended?.begun) pendant.stopJog();
+/** Acts at the pendant itself. */
+type AtThePendant = "mode" | "key" | "enable" | "jog" | "servo" | "override" | "reset" | "emergency-stop";
+
+class ServedPendantState {
+  readonly brand: DriverKind;
+  readonly host: string;
+  readonly virtual: VendorVirtual;
+  readonly outside: ReturnType<typeof emulateNetwork>;
+  readonly scheduler: Scheduler;
+  readonly pendant: Pendant;
+  readonly robot: Robot;
+  readonly joints: readonly Joint[];
+  readonly q_rad: Float64Array;
+  readonly last_rad: Float64Array;
+  readonly at: (q_rad: Float64Array) => Pick<VirtualPendantShown, "flange" | "points">;
+  readonly holding = new Map<string, number>();
+  jog: Jog | null = null;
+  pressed = false;
+  gateOpen = false;
+  near = false;
+  moving = false;
+  says = "";
+  readonly stop: () => void;
+
+  constructor(
+    brand: DriverKind,
+    host: string,
+    virtual: VendorVirtual,
+    outside: ReturnType<typeof emulateNetwork>,
+    scheduler: Scheduler,
+  ) {
+    this.brand = brand;
+    this.host = host;
+    this.virtual = virtual;
+    this.outside = outside;
+    this.scheduler = scheduler;
+    this.pendant = this.virtual.pendant;
+    this.robot = this.virtual.robot;
+    this.joints = this.robot.arm.joints;
+    this.q_rad = new Float64Array(this.joints.length);
+    this.last_rad = this.virtual.jointAngles().slice();
+    this.at = placesOf(this.robot);
+    this.stop = this.scheduler.every(LOOK_S, () => {
+      this.virtual.jointAngles(this.q_rad);
+      this.moving = this.q_rad.some((q, i) => Math.abs(q - this.last_rad[i]!) > 1e-9);
+      this.last_rad.set(this.q_rad);
+      const now_s = this.scheduler.now_s();
+      for (const [who, heard_s] of this.holding) {
+        if (now_s - heard_s <= SILENCE_S) continue;
+        this.letGo(who);
+        this.says = `Nothing was heard from the pendant for ${Math.round(SILENCE_S * 1000)} ms: the enabling switch counts as let go.`;
+      }
+      if (!this.jog || this.jog.begun) return;
+      const { servo } = this.pendant.shown;
+      if (now_s - this.jog.since_s > PATIENCE_S) {
+        this.endJog(
+          refuse(
+            "controller.not-ready",
+            servo === "on" ? "The arm does not come to rest." : "The drives are off.",
+            servo === "on" ? "Let the key go and press it again." : "Acknowledge what is wrong and switch them on.",
+          ),
+        );
+        return;
+      }
+      if (servo === "on" && !this.moving) this.begin(this.jog);
+    });
+  }
+
+  isManual(): boolean {
+    return this.pendant.keys.find(({ id }) => id === this.pendant.shown.key)?.mode === "manual";
+  }
+
+  endJog(outcome: CommandOutcome = DONE): void {
+    const ended = this.jog;
+    this.jog = null;
+    if (ended?.begun) this.pendant.stopJog();
     ended?.settle(outcome);
   }
-  function letGo(who: string): void {
-    if (jog?.who === who) endJog();
-    if (holding.delete(who) && holding.size === 0) pendant.setEnabling(false);
-  }
-  function hold(who: string): void {
-    if (holding.size === 0) pendant.setEnabling(true);
-    holding.set(who, scheduler.now_s());
+
+  readonly letGo = (who: string): void => {
+    if (this.jog?.who === who) this.endJog();
+    if (this.holding.delete(who) && this.holding.size === 0) this.pendant.setEnabling(false);
+  };
+
+  hold(who: string): void {
+    if (this.holding.size === 0) this.pendant.setEnabling(true);
+    this.holding.set(who, this.scheduler.now_s());
   }
 
   /** The joint runs towards its limit until the key is let go. */
-  function begin(mine: Jog): void {
-    const target = virtual.jointAngles().slice();
-    const { lower_rad, upper_rad } = joints[mine.joint - 1]!.limits;
+  begin(mine: Jog): void {
+    const target = this.virtual.jointAngles().slice();
+    const { lower_rad, upper_rad } = this.joints[mine.joint - 1]!.limits;
     const limit_rad = mine.direction > 0 ? upper_rad : lower_rad;
     if (Math.abs(target[mine.joint - 1]! - limit_rad) < AT_LIMIT_RAD) {
-      endJog(refuse("limits.joint", `Joint ${mine.joint} is at its limit.`, "Jog it the other way."));
+      this.endJog(refuse("limits.joint", `Joint ${mine.joint} is at its limit.`, "Jog it the other way."));
       return;
     }
     target[mine.joint - 1] = limit_rad;
     mine.begun = true;
-    void pendant.jog(target, JOG_RATIO).then(outcome => {
-      if (jog !== mine) return;
+    void this.pendant.jog(target, JOG_RATIO).then(outcome => {
+      if (this.jog !== mine) return;
       // A controller that is still braking, or just coming on, is asked again.
       if (
         outcome.kind === "refused" &&
         outcome.why.code === "controller.busy" &&
-        scheduler.now_s() - mine.since_s < PATIENCE_S
+        this.scheduler.now_s() - mine.since_s < PATIENCE_S
       ) {
         mine.begun = false;
         return;
       }
-      jog = null;
+      this.jog = null;
       mine.settle(outcome);
     });
   }
-  const stop = scheduler.every(LOOK_S, () => {
-    virtual.jointAngles(q_rad);
-    moving = q_rad.some((q, i) => Math.abs(q - last_rad[i]!) > 1e-9);
-    last_rad.set(q_rad);
-    const now_s = scheduler.now_s();
-    for (const [who, heard_s] of holding) {
-      if (now_s - heard_s <= SILENCE_S) continue;
-      letGo(who);
-      says = `Nothing was heard from the pendant for ${Math.round(SILENCE_S * 1000)} ms: the enabling switch counts as let go.`;
-    }
-    if (!jog || jog.begun) return;
-    const { servo } = pendant.shown;
-    if (now_s - jog.since_s > PATIENCE_S) {
-      endJog(
-        refuse(
-          "controller.not-ready",
-          servo === "on" ? "The arm does not come to rest." : "The drives are off.",
-          servo === "on" ? "Let the key go and press it again." : "Acknowledge what is wrong and switch them on.",
-        ),
-      );
-      return;
-    }
-    if (servo === "on" && !moving) begin(jog);
-  });
 
-  function press(who: string, joint: number, direction: -1 | 0 | 1): CommandOutcome | Promise<CommandOutcome> {
+  press(who: string, joint: number, direction: -1 | 0 | 1): CommandOutcome | Promise<CommandOutcome> {
     if (direction === 0) {
-      if (jog?.who === who) endJog();
+      if (this.jog?.who === who) this.endJog();
       return DONE;
     }
-    if (joint < 1 || joint > joints.length)
+    if (joint < 1 || joint > this.joints.length)
       return refuse(
         "controller.no-joint",
-        `${robot.name} has ${joints.length} joints; there is no joint ${joint}.`,
+        `${this.robot.name} has ${this.joints.length} joints; there is no joint ${joint}.`,
         "Press another key.",
       );
-    if (!isManual())
+    if (!this.isManual())
       return refuse(
         "controller.not-manual",
         "The jog keys work in a manual mode only.",
-        `Turn the key to ${pendant.keys.find(({ mode }) => mode === "manual")?.name ?? "manual"}.`,
+        `Turn the key to ${this.pendant.keys.find(({ mode }) => mode === "manual")?.name ?? "manual"}.`,
       );
-    if (!holding.has(who))
+    if (!this.holding.has(who))
       return refuse("cabinet.enabling", "The enabling switch is not pressed.", "Hold it, then the jog key.");
-    if (jog && jog.who !== who)
+    if (this.jog && this.jog.who !== who)
       return refuse("controller.busy", "Somebody else is jogging.", "Wait until they have let go.");
-    endJog();
+    this.endJog();
     return new Promise(settle => {
-      jog = { who, joint, direction, since_s: scheduler.now_s(), begun: false, settle };
+      this.jog = { who, joint, direction, since_s: this.scheduler.now_s(), begun: false, settle };
     });
   }
-  const said = (why: string | null): CommandOutcome => (why === null ? DONE : refuse("cabinet.refused", why, ""));
-  const guard = (): void => {
-    pendant.setGuardOpen(gateOpen || near);
-  };
 
+  said(why: string | null): CommandOutcome {
+    return why === null ? DONE : refuse("cabinet.refused", why, "");
+  }
+
+  async act(who: string, act: VirtualPendantAction): Promise<CommandOutcome> {
+    if (act.do !== "enable") this.says = "";
+    switch (act.do) {
+      case "mode":
+        this.endJog();
+        this.pendant.setMode(act.mode);
+        return DONE;
+      case "key":
+        if (!this.pendant.keys.some(({ id }) => id === act.position))
+          return refuse(
+            "cabinet.no-position",
+            `The key has no position “${act.position}”.`,
+            `It has: ${this.pendant.keys.map(({ id }) => id).join(", ")}.`,
+          );
+        this.endJog();
+        this.pendant.turnKey(act.position);
+        return DONE;
+      case "enable":
+        if (act.pressed) {
+          this.says = "";
+          this.hold(who);
+        } else this.letGo(who);
+        return DONE;
+      case "jog":
+        return this.press(who, act.joint, act.direction);
+      case "servo":
+        return this.said(this.pendant.setServo(act.on));
+      case "override":
+        if (!(act.percent >= 0 && act.percent <= 100))
+          return refuse(
+            "controller.override",
+            `An override of ${act.percent} % is not between 0 and 100 %.`,
+            "Choose one between.",
+          );
+        return this.said(this.pendant.setOverride(act.percent / 100));
+      case "reset":
+        return this.said(this.pendant.reset());
+      case "emergency-stop":
+        this.pressed = act.pressed;
+        if (this.pressed) this.endJog();
+        this.pendant.emergencyStop(this.pressed);
+        return DONE;
+      default:
+        return this.beside(act);
+    }
+  }
+
+  /** What is done at the cabinet and around the robot, not at the pendant. */
+  private beside(act: Exclude<VirtualPendantAction, { readonly do: AtThePendant }>): CommandOutcome {
+    switch (act.do) {
+      case "guard":
+        this.gateOpen = act.open;
+        this.guard();
+        return DONE;
+      case "near":
+        this.near = act.somebody;
+        this.guard();
+        return DONE;
+      case "protective-stop":
+        this.pendant.protectiveStop(act.because);
+        return DONE;
+      case "input":
+        this.pendant.setInput(act.signal, act.value);
+        return DONE;
+      case "trouble": {
+        const { trouble: problem } = this.outside;
+        problem.delay_s = act.delay_s ?? problem.delay_s;
+        problem.loss = act.loss ?? problem.loss;
+        problem.hangs = act.hangs ?? problem.hangs;
+        problem.unplugged = act.unplugged ?? problem.unplugged;
+        return DONE;
+      }
+      case "reboot":
+        this.endJog();
+        this.virtual.reboot();
+        return DONE;
+    }
+  }
+
+  guard(): void {
+    this.pendant.setGuardOpen(this.gateOpen || this.near);
+  }
+}
+
+function servedPendantOf(own: ServedPendantState): { readonly cabinet: VirtualPendant; close(): void } {
   return {
     close() {
-      stop();
-      endJog();
+      own.stop();
+      own.endJog();
     },
     cabinet: {
       words: {
-        brand: brand.id,
-        brandName: brand.name,
-        robotName: robot.name,
-        host,
-        ports: virtual.ports,
-        keys: pendant.keys,
-        labels: pendant.labels,
-        inputs: pendant.lines.inputs,
-        outputs: pendant.lines.outputs,
-        joints: joints.map(({ limits, kind }) => ({
+        brand: own.brand.id,
+        brandName: own.brand.name,
+        robotName: own.robot.name,
+        host: own.host,
+        ports: own.virtual.ports,
+        keys: own.pendant.keys,
+        labels: own.pendant.labels,
+        inputs: own.pendant.lines.inputs,
+        outputs: own.pendant.lines.outputs,
+        joints: own.joints.map(({ limits, kind }) => ({
           lower_rad: limits.lower_rad,
           upper_rad: limits.upper_rad,
           slides: kind === "prismatic",
         })),
       },
       get shown(): VirtualPendantShown {
-        const { lines } = pendant;
-        const q = virtual.jointAngles();
+        const { lines } = own.pendant;
+        const q = own.virtual.jointAngles();
         return {
-          ...pendant.shown,
+          ...own.pendant.shown,
           q_rad: Array.from(q),
-          ...at(q),
-          moving,
-          enabled: holding.size > 0,
-          jog: jog && { joint: jog.joint, direction: jog.direction },
-          pressed,
-          gateOpen,
-          near,
-          says,
+          ...own.at(q),
+          moving: own.moving,
+          enabled: own.holding.size > 0,
+          jog: own.jog && { joint: own.jog.joint, direction: own.jog.direction },
+          pressed: own.pressed,
+          gateOpen: own.gateOpen,
+          near: own.near,
+          says: own.says,
           on: [...lines.inputs, ...lines.outputs].filter(signal => lines.read(signal)),
-          trouble: { ...outside.trouble },
-          peers: outside.peers(),
+          trouble: { ...own.outside.trouble },
+          peers: own.outside.peers(),
         };
       },
       alive(who) {
-        if (holding.has(who)) holding.set(who, scheduler.now_s());
+        if (own.holding.has(who)) own.holding.set(who, own.scheduler.now_s());
       },
-      leave: letGo,
-      async act(who, act) {
-        if (act.do !== "enable") says = "";
-        switch (act.do) {
-          case "mode":
-            endJog();
-            pendant.setMode(act.mode);
-            return DONE;
-          case "key":
-            if (!pendant.keys.some(({ id }) => id === act.position))
-              return refuse(
-                "cabinet.no-position",
-                `The key has no position “${act.position}”.`,
-                `It has: ${pendant.keys.map(({ id }) => id).join(", ")}.`,
-              );
-            endJog();
-            pendant.turnKey(act.position);
-            return DONE;
-          case "enable":
-            if (act.pressed) {
-              says = "";
-              hold(who);
-            } else letGo(who);
-            return DONE;
-          case "jog":
-            return press(who, act.joint, act.direction);
-          case "servo":
-            return said(pendant.setServo(act.on));
-          case "override":
-            if (!(act.percent >= 0 && act.percent <= 100))
-              return refuse(
-                "controller.override",
-                `An override of ${act.percent} % is not between 0 and 100 %.`,
-                "Choose one between.",
-              );
-            return said(pendant.setOverride(act.percent / 100));
-          case "reset":
-            return said(pendant.reset());
-          case "emergency-stop":
-            pressed = act.pressed;
-            if (pressed) endJog();
-            pendant.emergencyStop(pressed);
-            return DONE;
-          case "guard":
-            gateOpen = act.open;
-            guard();
-            return DONE;
-          case "near":
-            near = act.somebody;
-            guard();
-            return DONE;
-          case "protective-stop":
-            pendant.protectiveStop(act.because);
-            return DONE;
-          case "input":
-            pendant.setInput(act.signal, act.value);
-            return DONE;
-          case "trouble": {
-            const { trouble: problem } = outside;
-            problem.delay_s = act.delay_s ?? problem.delay_s;
-            problem.loss = act.loss ?? problem.loss;
-            problem.hangs = act.hangs ?? problem.hangs;
-            problem.unplugged = act.unplugged ?? problem.unplugged;
-            return DONE;
-          }
-          case "reboot":
-            endJog();
-            virtual.reboot();
-            return DONE;
-        }
-      },
+      leave: own.letGo,
+      act: (who, act) => own.act(who, act),
     },
   };
 }

@@ -11,6 +11,7 @@ import {
   type Scheduler,
   type Signals,
   type Step,
+  type Robot,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import {
@@ -27,7 +28,7 @@ import {
   stoppedInReset,
 } from "../refusals.ts";
 import type { ControllerAdapter } from "./adapter.ts";
-import { keepLink } from "./link.ts";
+import { keepLink, type Link } from "./link.ts";
 import { stepRefusal } from "./sayable.ts";
 import { sendSteps } from "./steps.ts";
 import { linkDown, notOpen, resetUnseen, wasStopped } from "./words.ts";
@@ -65,105 +66,142 @@ const STANDS = 3;
 
 /** What all drivers have in common, in front of one brand's face. Nothing here waits for the wire. */
 export function createRealController(options: RealOptions): RealController {
-  const { face: adapter, scheduler } = options;
-  const { robot } = adapter;
-  const n = robot.arm.joints.length;
-  const name = options.name ?? `${adapter.brand} ${robot.name}`;
-  const samples = listeners<JointSample>();
-  const q_rad = Float64Array.from(robot.home_rad);
-  const lent: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad,
-    moving: false,
-    mode: "automatic",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    step: "",
-    message: "",
-  };
-  let command: Command | null = null;
-  let isClosed = false;
-  let said = "";
-  let moving = false;
-  let standing = 0;
-  let override = 1;
+  return realControllerOf(new RealControllerState(options));
+}
+
+class RealControllerState {
+  readonly options: RealOptions;
+  readonly adapter: ControllerAdapter;
+  readonly scheduler: Scheduler;
+  readonly robot: Robot;
+  readonly n: number;
+  readonly name: string;
+  readonly samples = listeners<JointSample>();
+  readonly q_rad: Float64Array;
+  readonly lent: Lent;
+  command: Command | null = null;
+  isClosed = false;
+  said = "";
+  moving = false;
+  standing = 0;
+  override = 1;
   /** Stops so far, and emergency stops among them: a reset that began before one of them is over. */
-  let stops = 0;
-  let emergencies = 0;
-  let resetting: Promise<CommandOutcome> | null = null;
+  stops = 0;
+  emergencies = 0;
+  resetting: Promise<CommandOutcome> | null = null;
+  readonly link: Link;
+  readonly signals: Signals;
 
-  const link = keepLink(adapter, scheduler, name, {
-    losing() {
-      if (command) adapter.stop(false);
-    },
-    lost(why) {
-      end({ kind: "stopped", why });
-    },
-    sample(sample) {
-      q_rad.set(sample.q_rad);
-      lent.sequence = sample.sequence;
-      lent.time_s = sample.time_s;
-      lent.mode = sample.mode;
-      lent.safety = sample.safety;
-      lent.override = sample.override;
-      lent.gripperClosed = sample.gripperClosed;
-      if (sample.signals) lent.signals = sample.signals;
-      if (sample.target_rad) lent.target_rad = sample.target_rad;
-      lent.message = sample.message === "" ? said : sample.message;
-      lent.step = command?.step ?? "";
-      if (command && sample.moving) command.seenMoving = true;
-      moving = sample.moving;
-      standing = moving ? 0 : standing + 1;
-      lent.moving = isMoving();
-      samples.call(lent);
-      if (command?.stopping && standing >= STANDS) end({ kind: "stopped", why: command.stopping });
-    },
-  });
-
-  function isMoving(): boolean {
-    return moving || (command !== null && command.moves && !command.seenMoving && override > 0 && !command.stopping);
+  constructor(options: RealOptions) {
+    this.options = options;
+    this.adapter = this.options.face;
+    this.scheduler = this.options.scheduler;
+    this.robot = this.adapter.robot;
+    this.n = this.robot.arm.joints.length;
+    this.name = this.options.name ?? `${this.adapter.brand} ${this.robot.name}`;
+    this.q_rad = Float64Array.from(this.robot.home_rad);
+    this.lent = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: this.q_rad,
+      moving: false,
+      mode: "automatic",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      step: "",
+      message: "",
+    };
+    this.link = keepLink(this.adapter, this.scheduler, this.name, {
+      losing: () => {
+        if (this.command) this.adapter.stop(false);
+      },
+      lost: why => {
+        this.end({ kind: "stopped", why });
+      },
+      sample: sample => {
+        this.q_rad.set(sample.q_rad);
+        this.lent.sequence = sample.sequence;
+        this.lent.time_s = sample.time_s;
+        this.lent.mode = sample.mode;
+        this.lent.safety = sample.safety;
+        this.lent.override = sample.override;
+        this.lent.gripperClosed = sample.gripperClosed;
+        if (sample.signals) this.lent.signals = sample.signals;
+        if (sample.target_rad) this.lent.target_rad = sample.target_rad;
+        this.lent.message = sample.message === "" ? this.said : sample.message;
+        this.lent.step = this.command?.step ?? "";
+        if (this.command && sample.moving) this.command.seenMoving = true;
+        this.moving = sample.moving;
+        this.standing = this.moving ? 0 : this.standing + 1;
+        this.lent.moving = this.isMoving();
+        this.samples.call(this.lent);
+        if (this.command?.stopping && this.standing >= STANDS)
+          this.end({ kind: "stopped", why: this.command.stopping });
+      },
+    });
+    this.signals = {
+      read: signal => this.lent.signals?.get(signal) ?? false,
+      write: (signal, value) => {
+        const why = this.link.isOpen ? this.adapter.setSignal(signal, value) : notOpen(this.name);
+        if (why) this.said = why.sentence;
+      },
+    };
+    this.options.initialize?.();
   }
-  function end(outcome: CommandOutcome): void {
-    const ended = command;
-    command = null;
+
+  readonly isMoving = (): boolean => {
+    return (
+      this.moving ||
+      (this.command !== null &&
+        this.command.moves &&
+        !this.command.seenMoving &&
+        this.override > 0 &&
+        !this.command.stopping)
+    );
+  };
+
+  end(outcome: CommandOutcome): void {
+    const ended = this.command;
+    this.command = null;
     if (!ended) return;
     ended.over = true;
-    if (outcome.kind !== "done") said = outcome.why.sentence;
+    if (outcome.kind !== "done") this.said = outcome.why.sentence;
     ended.settle(outcome);
   }
 
-  function unfit(): Refusal | null {
-    if (isClosed) return closed(name);
-    if (!link.isOpen) return link.report.state === "closed" ? notOpen(name) : linkDown(name, link.report.sentence);
-    if (lent.safety === "emergency-stop") return drivesOff(robot);
-    if (lent.safety === "protective-stop") return protective(lent.message);
-    if (lent.safety === "guard-stop") return guardOpen(robot);
-    if (lent.mode === "manual") return manualMode(robot);
-    return command ? busy(robot) : null;
+  unfit(): Refusal | null {
+    if (this.isClosed) return closed(this.name);
+    if (!this.link.isOpen)
+      return this.link.report.state === "closed" ? notOpen(this.name) : linkDown(this.name, this.link.report.sentence);
+    if (this.lent.safety === "emergency-stop") return drivesOff(this.robot);
+    if (this.lent.safety === "protective-stop") return protective(this.lent.message);
+    if (this.lent.safety === "guard-stop") return guardOpen(this.robot);
+    if (this.lent.mode === "manual") return manualMode(this.robot);
+    return this.command ? busy(this.robot) : null;
   }
-  function refuse(why: Refusal): CommandOutcome {
-    said = why.sentence;
+
+  refuse(why: Refusal): CommandOutcome {
+    this.said = why.sentence;
     return refused(why);
   }
 
   /** One command at a time; its promise ends with the robot's own word, a stop, or the link. */
-  function carryOut(body: (mine: Command) => Promise<CommandOutcome>): Promise<CommandOutcome> {
-    said = "";
+  carryOut(body: (mine: Command) => Promise<CommandOutcome>): Promise<CommandOutcome> {
+    this.said = "";
     return new Promise(resolve => {
       const mine: Command = { settle: resolve, stopping: null, seenMoving: false, moves: false, step: "", over: false };
-      command = mine;
+      this.command = mine;
       body(mine).then(
         outcome => {
-          if (command === mine)
-            end(mine.stopping && outcome.kind !== "refused" ? { kind: "stopped", why: mine.stopping } : outcome);
+          if (this.command === mine)
+            this.end(mine.stopping && outcome.kind !== "refused" ? { kind: "stopped", why: mine.stopping } : outcome);
         },
         // Steps may come from a running program text, and that may fault.
         (reason: unknown) => {
-          if (command === mine) {
-            adapter.stop(false);
-            end({ kind: "stopped", why: programFault(reason) });
+          if (this.command === mine) {
+            this.adapter.stop(false);
+            this.end({ kind: "stopped", why: programFault(reason) });
           }
         },
       );
@@ -171,49 +209,50 @@ export function createRealController(options: RealOptions): RealController {
   }
 
   /** Everything that moves the robot move by move goes through here (rows T-12, T-13). */
-  function send(steps: Iterable<Step>, context: Parameters<RealController["run"]>[1]): Promise<CommandOutcome> {
-    const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
-    return carryOut(mine =>
+  send(steps: Iterable<Step>, context: Parameters<RealController["run"]>[1]): Promise<CommandOutcome> {
+    const plan = this.options.worldFromBase ? { ...context, worldFromBase: this.options.worldFromBase } : context;
+    return this.carryOut(mine =>
       sendSteps(steps, {
-        robot,
-        face: adapter,
-        scheduler,
-        signals,
+        robot: this.robot,
+        face: this.adapter,
+        scheduler: this.scheduler,
+        signals: this.signals,
         context: plan,
-        measured_rad: () => q_rad.slice(),
+        measured_rad: () => this.q_rad.slice(),
         ended: () => mine.over || mine.stopping !== null,
         onStep(id) {
           mine.step = id;
         },
-        onMessage(text) {
-          said = text;
+        onMessage: text => {
+          this.said = text;
         },
-        onMotion(target_rad) {
+        onMotion: target_rad => {
           mine.moves = true;
           mine.seenMoving = false;
-          options.onMotion?.(target_rad);
+          this.options.onMotion?.(target_rad);
         },
       }),
     );
   }
-  async function moveRobotJoints(target_rad: ArrayLike<number>): Promise<CommandOutcome> {
-    const why = unfit() ?? jointRefusal(robot, target_rad);
-    if (why) return refuse(why);
-    return send(
+
+  async moveRobotJoints(target_rad: ArrayLike<number>): Promise<CommandOutcome> {
+    const why = this.unfit() ?? jointRefusal(this.robot, target_rad);
+    if (why) return this.refuse(why);
+    return this.send(
       [{ id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio: 1 }, blend_m: 0 }],
       { tools: {}, frames: {} },
     );
   }
 
   /** Resolves when a sample says that the stop is over; why not, after the time is up or when the link went. */
-  function stopCleared(wanted: () => boolean): Promise<Refusal | null> {
-    const until_s = scheduler.now_s() + RESET_SEEN_S;
+  stopCleared(wanted: () => boolean): Promise<Refusal | null> {
+    const until_s = this.scheduler.now_s() + RESET_SEEN_S;
     const look = (): Refusal | "wait" | null => {
-      if (isClosed) return closed(name);
-      if (!link.isOpen) return linkDown(name, link.report.sentence);
-      if (!wanted()) return stoppedInReset(robot);
-      if (lent.safety !== "emergency-stop" && lent.safety !== "protective-stop") return null;
-      return scheduler.now_s() >= until_s ? resetUnseen(robot, RESET_SEEN_S) : "wait";
+      if (this.isClosed) return closed(this.name);
+      if (!this.link.isOpen) return linkDown(this.name, this.link.report.sentence);
+      if (!wanted()) return stoppedInReset(this.robot);
+      if (this.lent.safety !== "emergency-stop" && this.lent.safety !== "protective-stop") return null;
+      return this.scheduler.now_s() >= until_s ? resetUnseen(this.robot, RESET_SEEN_S) : "wait";
     };
     return new Promise(resolve => {
       const first = look();
@@ -221,7 +260,7 @@ export function createRealController(options: RealOptions): RealController {
         resolve(first);
         return;
       }
-      const cancel = scheduler.every(RESET_LOOK_S, () => {
+      const cancel = this.scheduler.every(RESET_LOOK_S, () => {
         const now = look();
         if (now === "wait") return;
         cancel();
@@ -229,115 +268,116 @@ export function createRealController(options: RealOptions): RealController {
       });
     });
   }
-  async function carryOutReset(): Promise<CommandOutcome> {
-    if (!link.isOpen) return refuse(isClosed ? closed(name) : notOpen(name));
-    said = "";
-    const stopsBefore = stops;
-    const emergenciesBefore = emergencies;
-    const wanted = (): boolean => stops === stopsBefore;
-    const outcome = await adapter.reset(wanted);
+
+  async carryOutReset(): Promise<CommandOutcome> {
+    if (!this.link.isOpen) return this.refuse(this.isClosed ? closed(this.name) : notOpen(this.name));
+    this.said = "";
+    const stopsBefore = this.stops;
+    const emergenciesBefore = this.emergencies;
+    const wanted = (): boolean => this.stops === stopsBefore;
+    const outcome = await this.adapter.reset(wanted);
     // An order that was on its way when the stop came may have switched on what the stop had switched off.
-    if (emergencies !== emergenciesBefore) adapter.stop(true);
-    if (!wanted()) return refuse(stoppedInReset(robot));
-    if (outcome.kind !== "done") return refuse(outcome.why);
-    const why = await stopCleared(wanted);
-    return why ? refuse(why) : DONE;
+    if (this.emergencies !== emergenciesBefore) this.adapter.stop(true);
+    if (!wanted()) return this.refuse(stoppedInReset(this.robot));
+    if (outcome.kind !== "done") return this.refuse(outcome.why);
+    const why = await this.stopCleared(wanted);
+    return why ? this.refuse(why) : DONE;
   }
+}
 
-  const signals: Signals = {
-    read: signal => lent.signals?.get(signal) ?? false,
-    write(signal, value) {
-      const why = link.isOpen ? adapter.setSignal(signal, value) : notOpen(name);
-      if (why) said = why.sentence;
-    },
-  };
-
-  options.initialize?.();
-  const { runText, handText } = adapter;
+function realControllerOf(own: RealControllerState): RealController {
   return {
     kind: "real",
-    name,
-    robot,
-    signals,
-    watchdog: adapter.watchdog,
-    link: link.report,
+    name: own.name,
+    robot: own.robot,
+    signals: own.signals,
+    watchdog: own.adapter.watchdog,
+    link: own.link.report,
     get isConnected() {
-      return link.isOpen;
+      return own.link.isOpen;
     },
-    connect: () => (isClosed ? Promise.resolve(refused(closed(name))) : link.open()),
+    connect: () => (own.isClosed ? Promise.resolve(refused(closed(own.name))) : own.link.open()),
     disconnect() {
-      link.close();
+      own.link.close();
     },
-    onLink: listen => link.onChange(listen),
-    onSample: listen => samples.add(listen),
+    onLink: listen => own.link.onChange(listen),
+    onSample: listen => own.samples.add(listen),
     close() {
-      if (isClosed) return;
-      isClosed = true;
-      link.close();
-      end({ kind: "stopped", why: closed(name) });
-      samples.clear();
+      if (own.isClosed) return;
+      own.isClosed = true;
+      own.link.close();
+      own.end({ kind: "stopped", why: closed(own.name) });
+      own.samples.clear();
     },
-    isMoving,
+    isMoving: own.isMoving,
     setSpeed(percent) {
-      const why = percentRefusal(percent) ?? (link.isOpen ? adapter.setOverride(percent / 100) : unfit());
-      if (why) return refuse(why);
-      override = percent / 100;
+      const why = percentRefusal(percent) ?? (own.link.isOpen ? own.adapter.setOverride(percent / 100) : own.unfit());
+      if (why) return own.refuse(why);
+      own.override = percent / 100;
       return DONE;
     },
-    jointAngle: joint => q_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) {
-      out.set(q_rad);
+    jointAngle: joint => own.q_rad[joint - 1] ?? NaN,
+    jointAngles(out = new Float64Array(own.n)) {
+      out.set(own.q_rad);
       return out;
     },
     async moveJoint(joint, angle_rad) {
-      const why = jointNumberRefusal(robot, joint);
-      if (why) return refuse(why);
-      const target_rad = q_rad.slice();
+      const why = jointNumberRefusal(own.robot, joint);
+      if (why) return own.refuse(why);
+      const target_rad = own.q_rad.slice();
       target_rad[joint - 1] = angle_rad;
-      return moveRobotJoints(target_rad);
+      return own.moveRobotJoints(target_rad);
     },
-    moveJoints: target_rad => moveRobotJoints(target_rad),
-    moveToZero: () => moveRobotJoints(new Float64Array(n)),
+    moveJoints: target_rad => own.moveRobotJoints(target_rad),
+    moveToZero: () => own.moveRobotJoints(new Float64Array(own.n)),
     async moveToPose(baseFromFlange) {
-      const reach = solveAll(robot, baseFromFlange, { near: q_rad });
+      const reach = solveAll(own.robot, baseFromFlange, { near: own.q_rad });
       const nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
       if (!nearest)
-        return refuse({
+        return own.refuse({
           code: `reach.${reach.kind}`,
           sentence: explainReach(reach),
           hint: "Choose a pose within reach.",
         });
-      return moveRobotJoints(nearest.q_rad);
+      return own.moveRobotJoints(nearest.q_rad);
     },
     async run(steps, context) {
-      const why = unfit();
-      return why ? refuse(why) : send(steps, context);
+      const why = own.unfit();
+      return why ? own.refuse(why) : own.send(steps, context);
     },
-    cannotCarryOut: step => stepRefusal(step, adapter, robot),
+    cannotCarryOut: step => stepRefusal(step, own.adapter, own.robot),
     stop(emergency = false) {
       // Even when the link looks closed: a word too many does no harm.
-      adapter.stop(emergency);
-      stops++;
-      if (emergency) emergencies++;
-      if (!command) return;
-      command.stopping ??= emergency ? drivesOff(robot) : wasStopped(robot);
-      standing = 0;
+      own.adapter.stop(emergency);
+      own.stops++;
+      if (emergency) own.emergencies++;
+      if (!own.command) return;
+      own.command.stopping ??= emergency ? drivesOff(own.robot) : wasStopped(own.robot);
+      own.standing = 0;
     },
     reset() {
-      resetting ??= carryOutReset().finally(() => {
-        resetting = null;
+      own.resetting ??= own.carryOutReset().finally(() => {
+        own.resetting = null;
       });
-      return resetting;
+      return own.resetting;
     },
+    ...textCommandsOf(own),
+  };
+}
+
+/** What only drivers have whose protocol takes program texts. */
+function textCommandsOf(own: RealControllerState): Pick<RealController, "runText" | "handText"> {
+  const { runText, handText } = own.adapter;
+  return {
     ...(runText
       ? {
           async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-            const why = unfit();
+            const why = own.unfit();
             return why
-              ? refuse(why)
-              : carryOut(mine => {
+              ? own.refuse(why)
+              : own.carryOut(mine => {
                   mine.moves = true;
-                  return runText.call(adapter, files);
+                  return runText.call(own.adapter, files);
                 });
           },
         }
@@ -345,14 +385,14 @@ export function createRealController(options: RealOptions): RealController {
     ...(handText
       ? {
           async handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
-            const why = unfit();
+            const why = own.unfit();
             if (why) {
-              said = why.sentence;
+              own.said = why.sentence;
               return { kind: "refused", why };
             }
-            const handed = await handText.call(adapter, files);
+            const handed = await handText.call(own.adapter, files);
             if (handed.kind === "refused") {
-              said = handed.why.sentence;
+              own.said = handed.why.sentence;
               return handed;
             }
             return {
@@ -361,12 +401,12 @@ export function createRealController(options: RealOptions): RealController {
                 handed.drop();
               },
               start() {
-                const unready = unfit();
+                const unready = own.unfit();
                 if (unready) {
                   handed.drop();
-                  return Promise.resolve(refuse(unready));
+                  return Promise.resolve(own.refuse(unready));
                 }
-                return carryOut(mine => {
+                return own.carryOut(mine => {
                   mine.moves = true;
                   return handed.start();
                 });

@@ -1,9 +1,9 @@
-import type { DriverKind } from "../driver/index.ts";
+import { startedDriver, type DriverKind } from "../driver/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
-import { FTP_PORT } from "./codec-ftp.ts";
-import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
-import { createFanucAdapter } from "./driver.ts";
-import { fanucPendant } from "./pendant.ts";
+import { FTP_PORT } from "./codec/ftp.ts";
+import { RMI_PORT, RMI_SESSION_PORT } from "./codec/rmi.ts";
+import { createFanucAdapter } from "./adapter/adapter.ts";
+import { fanucPendant } from "./virtual/pendant.ts";
 import { createVirtualFanuc } from "./virtual/controller.ts";
 
 const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
@@ -42,23 +42,17 @@ export const fanuc: DriverKind = {
     });
     if (started.kind === "taken") return started;
     const { virtual } = started;
-    const { arm } = virtual;
-    return {
-      kind: "started",
-      virtual: {
-        name: `Virtual ${robot.name}`,
-        robot,
-        ports: virtual.ports,
-        brakingTime_s: arm.brakingTime_s,
-        jointAngles: out => arm.jointAngles(out),
-        reboot() {
-          virtual.reboot();
-        },
-        close() {
-          virtual.close();
-        },
-        pendant: fanucPendant(virtual),
+    return startedDriver({
+      robot,
+      ports: virtual.ports,
+      arm: virtual.arm,
+      pendant: fanucPendant(virtual),
+      reboot: () => {
+        virtual.reboot();
       },
-    };
+      close: () => {
+        virtual.close();
+      },
+    });
   },
 };

@@ -1,5 +1,5 @@
 export { fanuc } from "./brand.ts";
-export { createFanucAdapter, type FanucAdapterOptions } from "./driver.ts";
+export { createFanucAdapter, type FanucAdapterOptions } from "./adapter/adapter.ts";
 export {
   createVirtualFanuc,
   type FanucPendant,

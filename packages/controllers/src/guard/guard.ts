@@ -10,6 +10,7 @@ import {
   type RobotController,
   type Scheduler,
   type Signals,
+  type Robot,
 } from "@twincell/core";
 import type { CellMember } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
@@ -144,416 +145,500 @@ const SPEED_SLACK = 1.1;
  * it was safe.
  */
 export function createGuard(options: GuardOptions): Guard {
-  const { controller, scheduler, place } = options;
-  const { robot, jumpTo } = controller;
-  const n = robot.arm.joints.length;
-  const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
-  let isSafe = options.isSafe ?? (() => true);
-  const silence = options.silence_s ?? 0.06;
-  const silence_s = typeof silence === "number" ? (): number => silence : silence;
-  const delay_s = options.linkDelay_s ?? 0;
-  const cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
-  // Of a robot that nobody knows, it is not said that it brakes as hard as it can.
-  const braking_s =
-    options.brakingTime_s ?? (controller.kind === "virtual" ? hardBrakingTime_s(robot) : brakingTime_s(robot));
-  let contactsAt: GuardedCell["contactsAt"];
-  let gripper: GuardedCell["gripper"];
-  let gripperClosed = false;
-  /** Stops by a person so far: a reset that began before one of them does not end it. */
-  let stops = 0;
-  let flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
-  let tcp = tcpOf(robot.arm, flangeFromTcp);
-  let bound_mps = speedBound(robot, flangeFromTcp);
-  const changes = listeners<GuardState>();
-  const notices = listeners<Refusal>();
+  return guardOf(new GuardedController(options));
+}
 
+class GuardedController {
+  readonly options: GuardOptions;
+  readonly controller: RobotController;
+  readonly scheduler: Scheduler;
+  readonly place: CellMember | undefined;
+  readonly robot: Robot;
+  readonly jumpTo: ((q_rad: ArrayLike<number>) => CommandOutcome) | undefined;
+  readonly n: number;
+  readonly rules: { deadMan: boolean };
+  isSafe: (q_rad: Float64Array) => boolean;
+  readonly silence_s: () => number;
+  readonly delay_s: number;
+  readonly cap_mps: number;
+  // Of a robot that nobody knows, it is not said that it brakes as hard as it can.
+  readonly braking_s: number;
+  contactsAt: GuardedCell["contactsAt"];
+  gripper: GuardedCell["gripper"];
+  gripperClosed = false;
+  /** Stops by a person so far: a reset that began before one of them does not end it. */
+  stops = 0;
+  flangeFromTcp: Pose<"flange", "tcp">;
+  tcp: (q_rad: ArrayLike<number>, out: Pose<"base", "tcp">) => Pose<"base", "tcp">;
+  bound_mps: number;
+  readonly changes = listeners<GuardState>();
+  readonly notices = listeners<Refusal>();
   // A link that never was cannot be lost: silence counts from the first sample.
-  let state: GuardState = { ...AT_FIRST, watching: options.watching ?? false };
-  let heard_s = Infinity;
-  let alive_s = scheduler.now_s();
-  let because: Refusal | null = null;
-  let manual = false;
+  state: GuardState;
+  heard_s = Infinity;
+  alive_s: number;
+  because: Refusal | null = null;
+  manual = false;
   /** Wanted override, and the part of it that the cap leaves in this move. */
-  let percent = 100;
-  let capped = 1;
-  let applied = 100;
+  percent = 100;
+  capped = 1;
+  applied = 100;
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with
   // room to stop.
-  const forecast = new StopForecast(robot, controller.jointAngles(), braking_s, delay_s);
-  const { q_rad, ahead_rad } = forecast;
-  const between_rad = new Float64Array(n);
-  let planned: PathAhead | null = null;
-  let straight: PathAhead | null = null;
-  const safe_rad = Float64Array.from(q_rad);
-  let time_s = NaN;
-  let leaving = false;
-  let touchedAtStart: readonly string[] = [];
-  let tip = identity<"base", "tcp">();
-  let tipBefore = identity<"base", "tcp">();
+  readonly forecast: StopForecast;
+  readonly q_rad: Float64Array;
+  readonly ahead_rad: Float64Array;
+  readonly between_rad: Float64Array;
+  planned: PathAhead | null = null;
+  straight: PathAhead | null = null;
+  readonly safe_rad: Float64Array;
+  time_s = NaN;
+  leaving = false;
+  touchedAtStart: readonly string[] = [];
+  tip = identity<"base", "tcp">();
+  tipBefore = identity<"base", "tcp">();
+  readonly unsubscribe: () => void;
+  looked_s: number;
+  readonly stopWatching: () => void;
+
+  constructor(options: GuardOptions) {
+    this.options = options;
+    this.controller = this.options.controller;
+    this.scheduler = this.options.scheduler;
+    this.place = this.options.place;
+    this.robot = this.controller.robot;
+    this.jumpTo = this.controller.jumpTo;
+    this.n = this.robot.arm.joints.length;
+    this.rules = { deadMan: this.options.deadMan ?? this.controller.kind !== "virtual" };
+    this.isSafe = this.options.isSafe ?? (() => true);
+    const silence = this.options.silence_s ?? 0.06;
+    this.silence_s = typeof silence === "number" ? (): number => silence : silence;
+    this.delay_s = this.options.linkDelay_s ?? 0;
+    this.cap_mps = this.options.manualCap_mps ?? MANUAL_CAP_MPS;
+    this.braking_s =
+      this.options.brakingTime_s ??
+      (this.controller.kind === "virtual" ? hardBrakingTime_s(this.robot) : brakingTime_s(this.robot));
+    this.flangeFromTcp = this.options.flangeFromTcp ?? identity<"flange", "tcp">();
+    this.tcp = tcpOf(this.robot.arm, this.flangeFromTcp);
+    this.bound_mps = speedBound(this.robot, this.flangeFromTcp);
+    this.state = { ...AT_FIRST, watching: this.options.watching ?? false };
+    this.alive_s = this.scheduler.now_s();
+    this.forecast = new StopForecast(this.robot, this.controller.jointAngles(), this.braking_s, this.delay_s);
+    this.q_rad = this.forecast.q_rad;
+    this.ahead_rad = this.forecast.ahead_rad;
+    this.between_rad = new Float64Array(this.n);
+    this.safe_rad = Float64Array.from(this.q_rad);
+    this.unsubscribe = this.controller.onSample(this.watch);
+    this.looked_s = this.scheduler.now_s();
+    this.stopWatching = this.scheduler.every(WATCH_S, () => {
+      const now_s = this.scheduler.now_s();
+      const late_s = now_s - this.looked_s - WATCH_S;
+      this.looked_s = now_s;
+      if (late_s > HELD_UP_S) {
+        this.heard_s = Math.min(now_s, this.heard_s + late_s);
+        this.alive_s = Math.min(now_s, this.alive_s + late_s);
+      }
+      if (this.state.link === "lost") return;
+      if (now_s - this.heard_s > this.silence_s()) {
+        this.notice(this.silent(now_s - this.heard_s));
+        this.send({ type: "link-lost" });
+        return;
+      }
+      const { heartbeat_s } = this.options;
+      const { holder } = this.state;
+      if (
+        heartbeat_s !== undefined &&
+        holder !== null &&
+        this.state.link === "up" &&
+        now_s - this.alive_s > heartbeat_s
+      ) {
+        this.notice(commanderWentSilent(holder, now_s - this.alive_s));
+        this.send({ type: "link-lost" });
+      }
+    });
+  }
 
   /** Only when it changes: an override set at the pendant is not overwritten by the way. */
-  function applySpeed(): CommandOutcome {
-    const wanted = percent * (manual ? capped : 1);
-    if (wanted === applied) return DONE;
-    const outcome = controller.setSpeed(wanted);
-    if (outcome.kind === "done") applied = wanted;
+  applySpeed(): CommandOutcome {
+    const wanted = this.percent * (this.manual ? this.capped : 1);
+    if (wanted === this.applied) return DONE;
+    const outcome = this.controller.setSpeed(wanted);
+    if (outcome.kind === "done") this.applied = wanted;
     return outcome;
   }
 
-  function send(event: GuardEvent): Refusal | null {
-    const answer = guardStep(state, event, rules);
-    const changed = answer.state !== state;
-    const holder = state.holder;
-    state = answer.state;
+  send(event: GuardEvent): Refusal | null {
+    const answer = guardStep(this.state, event, this.rules);
+    const changed = answer.state !== this.state;
+    const holder = this.state.holder;
+    this.state = answer.state;
     for (const effect of answer.effects) {
-      if (effect === "stop") controller.stop();
-      else if (effect === "emergency-stop") controller.stop(true);
-      else if (effect === "return") void goBack();
+      if (effect === "stop") this.controller.stop();
+      else if (effect === "emergency-stop") this.controller.stop(true);
+      else if (effect === "return") void this.goBack();
     }
-    if (changed) changes.call(state);
-    return answer.denied ? denialRefusal(answer.denied, robot.name, holder) : null;
-  }
-  function notice(why: Refusal): void {
-    because = why;
-    notices.call(why);
+    if (changed) this.changes.call(this.state);
+    return answer.denied ? denialRefusal(answer.denied, this.robot.name, holder) : null;
   }
 
-  async function goBack(): Promise<void> {
+  notice(why: Refusal): void {
+    this.because = why;
+    this.notices.call(why);
+  }
+
+  async goBack(): Promise<void> {
     // The cell may have changed since that pose was safe.
-    if (!isSafe(safe_rad)) {
-      notice(nowhereSafe);
-      send({ type: "ended" });
+    if (!this.isSafe(this.safe_rad)) {
+      this.notice(nowhereSafe);
+      this.send({ type: "ended" });
       return;
     }
-    capped = cappedFor(safe_rad);
-    applySpeed();
-    const outcome = await controller.moveJoints(Float64Array.from(safe_rad));
-    if (outcome.kind !== "done") send({ type: "stop", emergency: false });
-    send({ type: "ended" });
-    capped = 1;
-    applySpeed();
+    this.capped = this.cappedFor(this.safe_rad);
+    this.applySpeed();
+    const outcome = await this.controller.moveJoints(Float64Array.from(this.safe_rad));
+    if (outcome.kind !== "done") this.send({ type: "stop", emergency: false });
+    this.send({ type: "ended" });
+    this.capped = 1;
+    this.applySpeed();
   }
 
-  const cappedFor = (target_rad: ArrayLike<number> | null): number => {
-    const speed_mps = target_rad ? jointMoveSpeed(robot, q_rad, target_rad, flangeFromTcp) : bound_mps;
-    return speed_mps > cap_mps ? cap_mps / speed_mps : 1;
-  };
+  cappedFor(target_rad: ArrayLike<number> | null): number {
+    const speed_mps = target_rad
+      ? jointMoveSpeed(this.robot, this.q_rad, target_rad, this.flangeFromTcp)
+      : this.bound_mps;
+    return speed_mps > this.cap_mps ? this.cap_mps / speed_mps : 1;
+  }
 
   /** Asks, then lets the robot do it, then says how it ended and why. */
-  async function command(
+  async command(
     who: string,
     target_rad: ArrayLike<number> | null,
     go: () => Promise<CommandOutcome>,
   ): Promise<CommandOutcome> {
     const why =
-      watchedOnly() ??
+      this.watchedOnly() ??
       (target_rad
-        ? (jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) ?? place?.targetRefusal(target_rad) ?? null)
+        ? (jointRefusal(this.robot, target_rad) ??
+          this.pointRefusal(target_rad) ??
+          this.place?.targetRefusal(target_rad) ??
+          null)
         : null);
     if (why) return refused(why);
-    const denied = send({ type: "ask", who });
+    const denied = this.send({ type: "ask", who });
     if (denied) return refused(denied);
-    because = null;
-    beginLeaving();
-    place?.begin();
-    straight = target_rad ? new PathAhead(new StraightPath(controller.jointAngles(), target_rad), n) : null;
-    capped = cappedFor(target_rad);
-    applySpeed();
+    this.because = null;
+    this.beginLeaving();
+    this.place?.begin();
+    this.straight = target_rad
+      ? new PathAhead(new StraightPath(this.controller.jointAngles(), target_rad), this.n)
+      : null;
+    this.capped = this.cappedFor(target_rad);
+    this.applySpeed();
     let outcome: CommandOutcome | null = null;
     try {
       outcome = await go();
     } finally {
       // A driver that throws leaves nobody to say what the robot does: it is stopped.
       if (!outcome) {
-        send({ type: "stop", emergency: false });
-        send({ type: "ended" });
+        this.send({ type: "stop", emergency: false });
+        this.send({ type: "ended" });
       }
     }
-    straight = null;
-    const reason: Refusal | null = because;
-    if (state.motion !== "returning") {
-      capped = 1;
-      applySpeed();
+    this.straight = null;
+    const reason: Refusal | null = this.because;
+    if (this.state.motion !== "returning") {
+      this.capped = 1;
+      this.applySpeed();
     }
-    send({ type: "ended" });
+    this.send({ type: "ended" });
     return outcome.kind === "stopped" && reason ? { kind: "stopped", why: reason } : outcome;
   }
 
   /** A robot that stands too near to something may go away from there. */
-  function beginLeaving(): void {
-    leaving = !isSafe(q_rad);
-    touchedAtStart = leaving ? (contactsAt?.(q_rad) ?? []) : [];
+  beginLeaving(): void {
+    this.leaving = !this.isSafe(this.q_rad);
+    this.touchedAtStart = this.leaving ? (this.contactsAt?.(this.q_rad) ?? []) : [];
   }
-  const addsNone = (at_rad: Float64Array): boolean =>
-    contactsAt?.(at_rad).every(pair => touchedAtStart.includes(pair)) ?? true;
+
+  readonly addsNone = (at_rad: Float64Array): boolean =>
+    this.contactsAt?.(at_rad).every(pair => this.touchedAtStart.includes(pair)) ?? true;
 
   /** Whether it would come to rest without anything on the way there, if it were stopped now. */
-  function freeAhead(isFree: (at_rad: Float64Array) => boolean): boolean {
-    const path = state.motion === "moving" ? (planned ?? straight) : null;
-    const seen = path?.look(q_rad, ahead_rad, forecast.reach_s, isFree) ?? "off";
+  freeAhead(isFree: (at_rad: Float64Array) => boolean): boolean {
+    const path = this.state.motion === "moving" ? (this.planned ?? this.straight) : null;
+    const seen = path?.look(this.q_rad, this.ahead_rad, this.forecast.reach_s, isFree) ?? "off";
     if (seen !== "off") return seen === "free";
     let most_rad = 0;
-    for (let i = 0; i < n; i++) most_rad = Math.max(most_rad, Math.abs(ahead_rad[i]! - q_rad[i]!));
+    for (let i = 0; i < this.n; i++) most_rad = Math.max(most_rad, Math.abs(this.ahead_rad[i]! - this.q_rad[i]!));
     const looks = Math.min(MOST_LOOKS, Math.max(1, Math.ceil(most_rad / LOOK_RAD)));
     // The far end first: what is in the way is met there first.
     for (let look = looks; look > 0; look--) {
-      for (let i = 0; i < n; i++) between_rad[i] = q_rad[i]! + (look / looks) * (ahead_rad[i]! - q_rad[i]!);
-      if (!isFree(between_rad)) return false;
+      for (let i = 0; i < this.n; i++)
+        this.between_rad[i] = this.q_rad[i]! + (look / looks) * (this.ahead_rad[i]! - this.q_rad[i]!);
+      if (!isFree(this.between_rad)) return false;
     }
     return true;
   }
-  const lookAgain = (): void => {
-    planned?.forget();
-    straight?.forget();
-  };
-  const jumped = (): void => {
-    forecast.standAt(controller.jointAngles());
+
+  readonly jumped = (): void => {
+    this.forecast.standAt(this.controller.jointAngles());
     // Speeds of the tool are measured from one sample to the next.
-    tcp(q_rad, tip);
+    this.tcp(this.q_rad, this.tip);
   };
 
-  const watchedOnly = (): Refusal | null => (state.watching ? denialRefusal("watching", robot.name, null) : null);
-  const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
+  readonly lookAgain = (): void => {
+    this.planned?.forget();
+    this.straight?.forget();
+  };
 
-  function pointRefusal(target_rad: ArrayLike<number>): Refusal | null {
-    return jointRefusal(robot, target_rad) ?? (isSafe(Float64Array.from(target_rad)) ? null : targetTooNear);
+  watchedOnly(): Refusal | null {
+    return this.state.watching ? denialRefusal("watching", this.robot.name, null) : null;
   }
 
+  silent(silent_s: number): Refusal {
+    return (this.state.watching ? watchedLinkDown : linkWentDown)(this.robot.name, silent_s);
+  }
+
+  readonly pointRefusal = (target_rad: ArrayLike<number>): Refusal | null => {
+    return jointRefusal(this.robot, target_rad) ?? (this.isSafe(Float64Array.from(target_rad)) ? null : targetTooNear);
+  };
+
   /** Looks at one sample: link, clearance here and where a stop would end, speed of the tool. */
-  function watch(lent: JointSample): void {
-    heard_s = scheduler.now_s();
-    if (state.link === "lost") send({ type: "link-back" });
-    const dt_s = lent.time_s - time_s;
+  readonly watch = (lent: JointSample): void => {
+    this.heard_s = this.scheduler.now_s();
+    if (this.state.link === "lost") this.send({ type: "link-back" });
+    const dt_s = lent.time_s - this.time_s;
     const known = dt_s > 0;
-    manual = lent.mode === "manual";
-    forecast.take(lent, dt_s);
-    time_s = lent.time_s;
-    if (lent.gripperClosed !== gripperClosed) {
-      ({ gripperClosed } = lent);
-      gripper?.(gripperClosed, q_rad);
-      lookAgain();
+    this.manual = lent.mode === "manual";
+    this.forecast.take(lent, dt_s);
+    this.time_s = lent.time_s;
+    if (lent.gripperClosed !== this.gripperClosed) {
+      ({ gripperClosed: this.gripperClosed } = lent);
+      this.gripper?.(this.gripperClosed, this.q_rad);
+      this.lookAgain();
     }
-    [tip, tipBefore] = [tipBefore, tip];
-    tcp(q_rad, tip);
-    const underWay = state.motion === "moving" || state.motion === "returning";
-    if (underWay && manual && known) {
-      const speed_mps = distance(tip.position, tipBefore.position) / dt_s;
-      if (speed_mps > SPEED_SLACK * cap_mps) {
-        notice(tooFast(speed_mps, cap_mps));
-        send({ type: "stop", emergency: false });
+    [this.tip, this.tipBefore] = [this.tipBefore, this.tip];
+    this.tcp(this.q_rad, this.tip);
+    const underWay = this.state.motion === "moving" || this.state.motion === "returning";
+    if (underWay && this.manual && known) {
+      const speed_mps = distance(this.tip.position, this.tipBefore.position) / dt_s;
+      if (speed_mps > SPEED_SLACK * this.cap_mps) {
+        this.notice(tooFast(speed_mps, this.cap_mps));
+        this.send({ type: "stop", emergency: false });
       }
     }
-    if (place) {
-      place.guarded = state.motion !== "at-rest";
-      place.tell(q_rad, ahead_rad);
-      const near = underWay ? place.tooNear() : null;
+    if (this.place) {
+      this.place.guarded = this.state.motion !== "at-rest";
+      this.place.tell(this.q_rad, this.ahead_rad);
+      const near = underWay ? this.place.tooNear() : null;
       if (near) {
-        notice(near);
-        send({ type: "stop", emergency: false });
+        this.notice(near);
+        this.send({ type: "stop", emergency: false });
       }
     }
-    const here = isSafe(q_rad);
-    if (leaving) {
-      leaving = !here;
-      if (!leaving) lookAgain();
-      if (!leaving || state.motion !== "moving" || (addsNone(q_rad) && freeAhead(addsNone))) return;
-      notice(cameTooNear);
-      send({ type: "too-near" });
+    const here = this.isSafe(this.q_rad);
+    if (this.leaving) {
+      this.leaving = !here;
+      if (!this.leaving) this.lookAgain();
+      if (
+        !this.leaving ||
+        this.state.motion !== "moving" ||
+        (this.addsNone(this.q_rad) && this.freeAhead(this.addsNone))
+      )
+        return;
+      this.notice(cameTooNear);
+      this.send({ type: "too-near" });
       return;
     }
     const kept =
-      here && (!underWay || ((!lent.target_rad || isSafe(lent.target_rad as Float64Array)) && freeAhead(isSafe)));
+      here &&
+      (!underWay ||
+        ((!lent.target_rad || this.isSafe(lent.target_rad as Float64Array)) && this.freeAhead(this.isSafe)));
     if (kept) {
-      if (state.trip === "none") safe_rad.set(q_rad);
+      if (this.state.trip === "none") this.safe_rad.set(this.q_rad);
       return;
     }
-    if (state.motion === "moving") {
-      notice(cameTooNear);
-      send({ type: "too-near" });
+    if (this.state.motion === "moving") {
+      this.notice(cameTooNear);
+      this.send({ type: "too-near" });
     }
-  }
-
-  const unsubscribe = controller.onSample(watch);
-  let looked_s = scheduler.now_s();
-  const stopWatching = scheduler.every(WATCH_S, () => {
-    const now_s = scheduler.now_s();
-    const late_s = now_s - looked_s - WATCH_S;
-    looked_s = now_s;
-    if (late_s > HELD_UP_S) {
-      heard_s = Math.min(now_s, heard_s + late_s);
-      alive_s = Math.min(now_s, alive_s + late_s);
-    }
-    if (state.link === "lost") return;
-    if (now_s - heard_s > silence_s()) {
-      notice(silent(now_s - heard_s));
-      send({ type: "link-lost" });
-      return;
-    }
-    const { heartbeat_s } = options;
-    const { holder } = state;
-    if (heartbeat_s !== undefined && holder !== null && state.link === "up" && now_s - alive_s > heartbeat_s) {
-      notice(commanderWentSilent(holder, now_s - alive_s));
-      send({ type: "link-lost" });
-    }
-  });
-
-  /** Lines of a robot that is only watched are read; who writes one is told. */
-  const linesOf = (signals: Signals): Signals => ({
-    read: signal => signals.read(signal),
-    write(signal, value) {
-      const why = watchedOnly();
-      if (why) notices.call(why);
-      else signals.write(signal, value);
-    },
-  });
-
-  const act = (event: GuardEvent): CommandOutcome => {
-    const denied = send(event);
-    return denied ? refused(denied) : DONE;
   };
 
-  function seat(who: string): Commander {
+  /** Lines of a robot that is only watched are read; who writes one is told. */
+  linesOf(signals: Signals): Signals {
     return {
-      name: who,
-      acquireLease() {
-        alive_s = scheduler.now_s();
-        return act({ type: "take", who });
-      },
-      releaseLease() {
-        if (state.holder === who && state.motion === "moving") because = leaseGivenBack;
-        return act({ type: "release", who });
-      },
-      setEnabled(pressed) {
-        if (!pressed && rules.deadMan && state.holder === who && state.motion === "moving") because = switchLetGo;
-        return act({ type: pressed ? "press" : "let-go", who });
-      },
-      watch(on) {
-        if (on && state.holder === who && state.motion === "moving") because = leaseGivenBack;
-        return act({ type: "watch", who, on });
-      },
-      readiness() {
-        const { denied } = guardStep(state, { type: "ask", who }, rules);
-        return denied ? denialRefusal(denied, robot.name, state.holder) : null;
-      },
-      acknowledge() {
-        alive_s = scheduler.now_s();
-        return act({ type: "confirm", who });
-      },
-      alive() {
-        if (state.holder === who) alive_s = scheduler.now_s();
-      },
-      robot: {
-        kind: controller.kind,
-        name: controller.name,
-        robot,
-        ...(controller.signals === undefined ? {} : { signals: linesOf(controller.signals) }),
-        onSample: listen => controller.onSample(listen),
-        close: () => {
-          act({ type: "release", who });
-        },
-        isMoving: () => controller.isMoving(),
-        jointAngle: joint => controller.jointAngle(joint),
-        jointAngles: out => controller.jointAngles(out),
-        setSpeed(to) {
-          const why =
-            percentRefusal(to) ??
-            watchedOnly() ??
-            (state.holder === who
-              ? null
-              : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
-          if (why) return refused(why);
-          percent = to;
-          return applySpeed();
-        },
-        async moveJoint(joint, angle_rad) {
-          const why = jointNumberRefusal(robot, joint);
-          if (why) return refused(why);
-          const target_rad = controller.jointAngles();
-          target_rad[joint - 1] = angle_rad;
-          return command(who, target_rad, () => controller.moveJoint(joint, angle_rad));
-        },
-        moveJoints(target_rad) {
-          const target = Float64Array.from(target_rad);
-          return command(who, target, () => controller.moveJoints(target));
-        },
-        moveToPose: baseFromFlange => command(who, null, () => controller.moveToPose(baseFromFlange)),
-        moveToZero: () => command(who, new Float64Array(n), () => controller.moveToZero()),
-        run: (steps, context) => command(who, null, () => controller.run(steps, context)),
-        cannotCarryOut: step => controller.cannotCarryOut(step),
-        stop: emergency => {
-          guard.stop(emergency);
-        },
-        async reset() {
-          const watched = watchedOnly();
-          if (watched) return refused(watched);
-          // Whether it may is asked before the controller is told: its drives would be on already.
-          const { denied } = guardStep(state, { type: "reset", who }, rules);
-          if (denied) return refused(denialRefusal(denied, robot.name, state.holder));
-          const before = stops;
-          const outcome = await controller.reset();
-          if (outcome.kind !== "done") return outcome;
-          // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
-          return before === stops ? act({ type: "reset", who }) : refused(stoppedInReset(robot));
-        },
-        ...(jumpTo
-          ? {
-              jumpTo(target_rad: ArrayLike<number>): CommandOutcome {
-                const why = watchedOnly() ?? pointRefusal(target_rad) ?? send({ type: "ask", who });
-                if (why) return refused(why);
-                const outcome = jumpTo(target_rad);
-                if (outcome.kind === "done") jumped();
-                send({ type: "ended" });
-                return outcome;
-              },
-            }
-          : {}),
+      read: signal => signals.read(signal),
+      write: (signal, value) => {
+        const why = this.watchedOnly();
+        if (why) this.notices.call(why);
+        else signals.write(signal, value);
       },
     };
   }
 
+  act(event: GuardEvent): CommandOutcome {
+    const denied = this.send(event);
+    return denied ? refused(denied) : DONE;
+  }
+
+  halt(emergency: boolean): void {
+    this.stops++;
+    this.send({ type: "stop", emergency });
+  }
+  readonly seat = (who: string): Commander => {
+    return {
+      name: who,
+      acquireLease: () => {
+        this.alive_s = this.scheduler.now_s();
+        return this.act({ type: "take", who });
+      },
+      releaseLease: () => {
+        if (this.state.holder === who && this.state.motion === "moving") this.because = leaseGivenBack;
+        return this.act({ type: "release", who });
+      },
+      setEnabled: pressed => {
+        if (!pressed && this.rules.deadMan && this.state.holder === who && this.state.motion === "moving")
+          this.because = switchLetGo;
+        return this.act({ type: pressed ? "press" : "let-go", who });
+      },
+      watch: on => {
+        if (on && this.state.holder === who && this.state.motion === "moving") this.because = leaseGivenBack;
+        return this.act({ type: "watch", who, on });
+      },
+      readiness: () => {
+        const { denied } = guardStep(this.state, { type: "ask", who }, this.rules);
+        return denied ? denialRefusal(denied, this.robot.name, this.state.holder) : null;
+      },
+      acknowledge: () => {
+        this.alive_s = this.scheduler.now_s();
+        return this.act({ type: "confirm", who });
+      },
+      alive: () => {
+        if (this.state.holder === who) this.alive_s = this.scheduler.now_s();
+      },
+      robot: this.robotOf(who),
+    };
+  };
+
+  /** The controller as one who commands it sees it. */
+  private robotOf(who: string): RobotController {
+    const { jumpTo } = this;
+    return {
+      kind: this.controller.kind,
+      name: this.controller.name,
+      robot: this.robot,
+      ...(this.controller.signals === undefined ? {} : { signals: this.linesOf(this.controller.signals) }),
+      onSample: listen => this.controller.onSample(listen),
+      close: () => {
+        this.act({ type: "release", who });
+      },
+      isMoving: () => this.controller.isMoving(),
+      jointAngle: joint => this.controller.jointAngle(joint),
+      jointAngles: out => this.controller.jointAngles(out),
+      setSpeed: to => {
+        const why =
+          percentRefusal(to) ??
+          this.watchedOnly() ??
+          (this.state.holder === who
+            ? null
+            : denialRefusal(
+                this.state.holder === null ? "no-lease" : "lease-taken",
+                this.robot.name,
+                this.state.holder,
+              ));
+        if (why) return refused(why);
+        this.percent = to;
+        return this.applySpeed();
+      },
+      moveJoint: async (joint, angle_rad) => {
+        const why = jointNumberRefusal(this.robot, joint);
+        if (why) return refused(why);
+        const target_rad = this.controller.jointAngles();
+        target_rad[joint - 1] = angle_rad;
+        return this.command(who, target_rad, () => this.controller.moveJoint(joint, angle_rad));
+      },
+      moveJoints: target_rad => {
+        const target = Float64Array.from(target_rad);
+        return this.command(who, target, () => this.controller.moveJoints(target));
+      },
+      moveToPose: baseFromFlange => this.command(who, null, () => this.controller.moveToPose(baseFromFlange)),
+      moveToZero: () => this.command(who, new Float64Array(this.n), () => this.controller.moveToZero()),
+      run: (steps, context) => this.command(who, null, () => this.controller.run(steps, context)),
+      cannotCarryOut: step => this.controller.cannotCarryOut(step),
+      stop: emergency => {
+        this.halt(emergency ?? false);
+      },
+      reset: async () => {
+        const watched = this.watchedOnly();
+        if (watched) return refused(watched);
+        // Whether it may is asked before the controller is told: its drives would be on already.
+        const { denied } = guardStep(this.state, { type: "reset", who }, this.rules);
+        if (denied) return refused(denialRefusal(denied, this.robot.name, this.state.holder));
+        const before = this.stops;
+        const outcome = await this.controller.reset();
+        if (outcome.kind !== "done") return outcome;
+        // The lease may be another's by now, which `act` asks; a stop that came meanwhile stays in force.
+        return before === this.stops ? this.act({ type: "reset", who }) : refused(stoppedInReset(this.robot));
+      },
+      ...(jumpTo
+        ? {
+            jumpTo: (target_rad: ArrayLike<number>): CommandOutcome => {
+              const why = this.watchedOnly() ?? this.pointRefusal(target_rad) ?? this.send({ type: "ask", who });
+              if (why) return refused(why);
+              const outcome = jumpTo(target_rad);
+              if (outcome.kind === "done") this.jumped();
+              this.send({ type: "ended" });
+              return outcome;
+            },
+          }
+        : {}),
+    };
+  }
+}
+
+function guardOf(own: GuardedController): Guard {
   const guard: Guard = {
     get state() {
-      return state;
+      return own.state;
     },
-    seat,
+    seat: own.seat,
     stop(emergency = false) {
-      stops++;
-      send({ type: "stop", emergency });
+      own.halt(emergency);
     },
     linkLost(why) {
-      if (state.link !== "lost") {
-        notice(why ?? silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s())));
-        send({ type: "link-lost" });
+      if (own.state.link !== "lost") {
+        own.notice(why ?? own.silent(own.scheduler.now_s() - Math.min(own.heard_s, own.scheduler.now_s())));
+        own.send({ type: "link-lost" });
       }
     },
     follow(path) {
-      planned = path && new PathAhead(path, n);
+      own.planned = path && new PathAhead(path, own.n);
     },
-    lookAgain,
-    jumped,
+    lookAgain: own.lookAgain,
+    jumped: own.jumped,
     setCell(cell) {
-      lookAgain();
-      ({ isSafe, contactsAt, gripper } = cell);
-      if (gripperClosed) gripper?.(true, q_rad);
-      flangeFromTcp = cell.flangeFromTcp ?? identity<"flange", "tcp">();
-      tcp = tcpOf(robot.arm, flangeFromTcp);
-      bound_mps = speedBound(robot, flangeFromTcp);
+      own.lookAgain();
+      ({ isSafe: own.isSafe, contactsAt: own.contactsAt, gripper: own.gripper } = cell);
+      if (own.gripperClosed) own.gripper?.(true, own.q_rad);
+      own.flangeFromTcp = cell.flangeFromTcp ?? identity<"flange", "tcp">();
+      own.tcp = tcpOf(own.robot.arm, own.flangeFromTcp);
+      own.bound_mps = speedBound(own.robot, own.flangeFromTcp);
       // Speeds of the tool are measured from one sample to the next: not from the old tool to the new.
-      tcp(q_rad, tip);
-      if (state.trip === "none" && isSafe(q_rad)) safe_rad.set(q_rad);
+      own.tcp(own.q_rad, own.tip);
+      if (own.state.trip === "none" && own.isSafe(own.q_rad)) own.safe_rad.set(own.q_rad);
       // What stands too near because something was put there may be led away from it.
-      if (state.motion === "at-rest") beginLeaving();
+      if (own.state.motion === "at-rest") own.beginLeaving();
     },
-    pointRefusal,
-    onChange: listen => changes.add(listen),
-    onNotice: listen => notices.add(listen),
+    pointRefusal: own.pointRefusal,
+    onChange: listen => own.changes.add(listen),
+    onNotice: listen => own.notices.add(listen),
     close() {
-      if (state.motion !== "at-rest") controller.stop();
-      unsubscribe();
-      place?.leave();
-      stopWatching();
-      changes.clear();
-      notices.clear();
+      if (own.state.motion !== "at-rest") own.controller.stop();
+      own.unsubscribe();
+      own.place?.leave();
+      own.stopWatching();
+      own.changes.clear();
+      own.notices.clear();
     },
   };
   return guard;

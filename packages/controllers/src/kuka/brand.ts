@@ -1,19 +1,20 @@
 import type { SignalLine } from "@twincell/core";
-import type {
-  DriverKind,
-  StartedDriver,
-  VendorVirtualOptions,
-  ControllerAdapter,
-  AdapterOptions,
+import {
+  startedDriver,
+  type DriverKind,
+  type StartedDriver,
+  type VendorVirtualOptions,
+  type ControllerAdapter,
+  type AdapterOptions,
 } from "../driver/index.ts";
-import { kukaAxes } from "./axes.ts";
+import { kukaAxes } from "./codec/axes.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
-import { C3_PORT } from "./codec-c3.ts";
-import { axisConfig } from "./codec-rsi.ts";
+import { C3_PORT } from "./codec/c3.ts";
+import { axisConfig } from "./codec/rsi.ts";
 import { createKukaAdapter } from "./adapter/adapter.ts";
 import { createKukaRsiAdapter } from "./adapter/rsi-adapter.ts";
-import { RSI_NAME } from "./loop.ts";
-import { kukaPendant } from "./pendant.ts";
+import { RSI_NAME } from "./codec/loop.ts";
+import { kukaPendant } from "./virtual/pendant.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
 
 const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = {
@@ -99,21 +100,16 @@ async function start(
     return { kind: "taken", sentence: listening.sentence };
   }
   startLoop(virtual, overRsi ? RSI_NAME : undefined);
-  return {
-    kind: "started",
-    virtual: {
-      name: `Virtual ${robot.name}`,
-      robot,
-      ports: { variables: listening.address.port, ...(overRsi ? { rsi: ports?.["rsi"] ?? RSI_PORT } : {}) },
-      brakingTime_s: arm.brakingTime_s,
-      jointAngles: out => arm.jointAngles(out),
-      reboot() {
-        virtual.reboot();
-      },
-      close() {
-        virtual.close();
-      },
-      pendant: kukaPendant(virtual, scheduler),
+  return startedDriver({
+    robot,
+    ports: { variables: listening.address.port, ...(overRsi ? { rsi: ports?.["rsi"] ?? RSI_PORT } : {}) },
+    arm,
+    pendant: kukaPendant(virtual, scheduler),
+    reboot: () => {
+      virtual.reboot();
     },
-  };
+    close: () => {
+      virtual.close();
+    },
+  });
 }

@@ -1,8 +1,8 @@
-import type { DriverKind } from "../driver/index.ts";
+import { startedDriver, type DriverKind } from "../driver/index.ts";
 import { CS7_CANNOT } from "./cannot.ts";
-import { LINE_PORT } from "./codec.ts";
+import { LINE_PORT } from "./codec/monitor.ts";
 import { createCs7Adapter } from "./adapter/index.ts";
-import { cs7Pendant } from "./pendant.ts";
+import { cs7Pendant } from "./virtual/pendant.ts";
 import { createVirtualCs7 } from "./virtual/index.ts";
 
 const PORTS = { line: LINE_PORT };
@@ -48,23 +48,17 @@ export const staubliCs7: DriverKind = {
     });
     if (started.kind === "taken") return started;
     const { virtual } = started;
-    const { arm } = virtual;
-    return {
-      kind: "started",
-      virtual: {
-        name: `Virtual ${robot.name}`,
-        robot,
-        ports: virtual.ports,
-        brakingTime_s: arm.brakingTime_s,
-        jointAngles: out => arm.jointAngles(out),
-        reboot() {
-          virtual.reboot();
-        },
-        close() {
-          virtual.close();
-        },
-        pendant: cs7Pendant(virtual, scheduler),
+    return startedDriver({
+      robot,
+      ports: virtual.ports,
+      arm: virtual.arm,
+      pendant: cs7Pendant(virtual, scheduler),
+      reboot: () => {
+        virtual.reboot();
       },
-    };
+      close: () => {
+        virtual.close();
+      },
+    });
   },
 };

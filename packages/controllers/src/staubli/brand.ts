@@ -1,9 +1,9 @@
-import type { DriverKind } from "../driver/index.ts";
+import { startedDriver, type DriverKind } from "../driver/index.ts";
 import { STAUBLI_CANNOT } from "./cannot.ts";
-import { FEEDBACK_PORT, MOTION_PORT } from "./codec.ts";
+import { FEEDBACK_PORT, MOTION_PORT } from "./codec/simple-message.ts";
 import { createStaubliAdapter } from "./adapter/index.ts";
-import { staubliPendant } from "./pendant.ts";
-import { JOINTS, speaksSimpleMessage } from "./robots.ts";
+import { staubliPendant } from "./virtual/pendant.ts";
+import { JOINTS, speaksSimpleMessage } from "./codec/robots.ts";
 import { createVirtualStaubli } from "./virtual/index.ts";
 
 const PORTS = { motion: MOTION_PORT, feedback: FEEDBACK_PORT };
@@ -34,22 +34,17 @@ export const staubli: DriverKind = {
     });
     if (started.kind === "taken") return started;
     const { virtual } = started;
-    return {
-      kind: "started",
-      virtual: {
-        name: `Virtual ${robot.name}`,
-        robot,
-        ports: virtual.ports,
-        brakingTime_s: virtual.arm.brakingTime_s,
-        pendant: staubliPendant(virtual, scheduler),
-        jointAngles: out => virtual.arm.jointAngles(out),
-        reboot() {
-          virtual.reboot();
-        },
-        close() {
-          virtual.close();
-        },
+    return startedDriver({
+      robot,
+      ports: virtual.ports,
+      arm: virtual.arm,
+      pendant: staubliPendant(virtual, scheduler),
+      reboot: () => {
+        virtual.reboot();
       },
-    };
+      close: () => {
+        virtual.close();
+      },
+    });
   },
 };

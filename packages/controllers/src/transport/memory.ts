@@ -1,4 +1,4 @@
-import { seededRandom, type Scheduler } from "@twincell/core";
+import { seededRandom, type Scheduler, type Random } from "@twincell/core";
 import { addressText, type Address, type ByteStream, type DatagramSocket, type Ending, type Network } from "./port.ts";
 import { spoiled } from "./spoil.ts";
 import { calm, type Side, type NetworkConditions } from "./weather.ts";
@@ -43,80 +43,108 @@ interface Parcel {
  * @param seed  of everything that happens by chance.
  */
 export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
-  const conditions = calm();
-  const random = seededRandom(seed);
-  const servers = new Map<string, (stream: ByteStream) => void>();
-  const sockets = new Map<
+  return memoryNetworkOf(new MemoryNetworkState(scheduler, seed));
+}
+
+class MemoryNetworkState {
+  readonly scheduler: Scheduler;
+  readonly seed: number;
+  readonly conditions = calm();
+  readonly random: Random;
+  readonly servers = new Map<string, (stream: ByteStream) => void>();
+  readonly sockets = new Map<
     string,
     { readonly receive: (bytes: Uint8Array, from: Address) => void; readonly side: Side }
   >();
-  const cutters = new Set<(halfOpen: boolean) => void>();
-  let parcels: Parcel[] = [];
-  let order = 0;
-  let underWay = 0;
-  let nextPort = FREE_PORT;
+  readonly cutters = new Set<(halfOpen: boolean) => void>();
+  parcels: Parcel[] = [];
+  order = 0;
+  underWay = 0;
+  nextPort = FREE_PORT;
   /** When the last parcel of a line arrives: none goes past it. */
-  const latest = new WeakMap<object, number>();
+  readonly latest = new WeakMap<object, number>();
+  readonly stop: () => void;
 
-  const freePort = (taken: ReadonlyMap<string, unknown>, { host, port }: Address): Address => {
+  constructor(scheduler: Scheduler, seed = 1) {
+    this.scheduler = scheduler;
+    this.seed = seed;
+    this.random = seededRandom(this.seed);
+    this.stop = this.scheduler.every(TICK_S, () => {
+      if (this.parcels.length === 0) return;
+      if (this.conditions.frozen || this.conditions.deaf !== null) {
+        for (const parcel of this.parcels) if (parcel.datagram && this.isHeld(parcel)) this.underWay -= parcel.bytes;
+        this.parcels = this.parcels.filter(parcel => !(parcel.datagram && this.isHeld(parcel)));
+      }
+      const now_s = this.scheduler.now_s() + 1e-12;
+      const isDue = (parcel: Parcel): boolean => parcel.due_s <= now_s && !this.isHeld(parcel);
+      const due = this.parcels.filter(isDue).sort((a, b) => a.due_s - b.due_s || a.order - b.order);
+      if (due.length === 0) return;
+      this.parcels = this.parcels.filter(parcel => !isDue(parcel));
+      for (const parcel of due) {
+        this.underWay -= parcel.bytes;
+        parcel.deliver();
+      }
+    });
+  }
+
+  freePort(taken: ReadonlyMap<string, unknown>, { host, port }: Address): Address {
     let at: Address = { host, port };
-    while (at.port === 0 || (port === 0 && taken.has(addressText(at)))) at = { host, port: nextPort++ };
+    while (at.port === 0 || (port === 0 && taken.has(addressText(at)))) at = { host, port: this.nextPort++ };
     return at;
-  };
+  }
 
   /** Puts something on its way. `line` keeps its order; without one it may be overtaken. */
-  const post = (bytes: number, deliver: () => void, line: object | null, towards: Side | "both"): void => {
-    let due_s = scheduler.now_s() + conditions.delay_s + conditions.jitter_s * random();
+  post(bytes: number, deliver: () => void, line: object | null, towards: Side | "both"): void {
+    let due_s = this.scheduler.now_s() + this.conditions.delay_s + this.conditions.jitter_s * this.random();
     if (line) {
-      for (let again = 0; conditions.loss > 0 && again < MOST_RESENDS && random() < conditions.loss; again++)
+      for (
+        let again = 0;
+        this.conditions.loss > 0 && again < MOST_RESENDS && this.random() < this.conditions.loss;
+        again++
+      )
         due_s += RESEND_S;
-      due_s = Math.max(due_s, latest.get(line) ?? 0);
-      latest.set(line, due_s);
+      due_s = Math.max(due_s, this.latest.get(line) ?? 0);
+      this.latest.set(line, due_s);
     }
-    parcels.push({ due_s, order: order++, line: line ?? conditions, deliver, bytes, datagram: line === null, towards });
-    underWay += bytes;
-  };
-
-  const stop = scheduler.every(TICK_S, () => {
-    if (parcels.length === 0) return;
-    if (conditions.frozen || conditions.deaf !== null) {
-      for (const parcel of parcels) if (parcel.datagram && isHeld(parcel)) underWay -= parcel.bytes;
-      parcels = parcels.filter(parcel => !(parcel.datagram && isHeld(parcel)));
-    }
-    const now_s = scheduler.now_s() + 1e-12;
-    const isDue = (parcel: Parcel): boolean => parcel.due_s <= now_s && !isHeld(parcel);
-    const due = parcels.filter(isDue).sort((a, b) => a.due_s - b.due_s || a.order - b.order);
-    if (due.length === 0) return;
-    parcels = parcels.filter(parcel => !isDue(parcel));
-    for (const parcel of due) {
-      underWay -= parcel.bytes;
-      parcel.deliver();
-    }
-  });
+    this.parcels.push({
+      due_s,
+      order: this.order++,
+      line: line ?? this.conditions,
+      deliver,
+      bytes,
+      datagram: line === null,
+      towards,
+    });
+    this.underWay += bytes;
+  }
 
   /** Whoever calls needs an answer: a connection that is half open is not made. */
-  const isHeld = ({ towards }: Parcel): boolean =>
-    conditions.frozen || (conditions.deaf !== null && (towards === "both" || towards === conditions.deaf));
+  isHeld({ towards }: Parcel): boolean {
+    return (
+      this.conditions.frozen ||
+      (this.conditions.deaf !== null && (towards === "both" || towards === this.conditions.deaf))
+    );
+  }
 
-  function pair(client: Address, server: Address): readonly [ByteStream, ByteStream] {
-    const one = half(server, "listener");
-    const two = half(client, "caller");
+  pair(client: Address, server: Address): readonly [ByteStream, ByteStream] {
+    const one = this.half(server, "listener");
+    const two = this.half(client, "caller");
     one.join(two);
     two.join(one);
     const cut = (halfOpen: boolean): void => {
       for (const end of [one, two]) end.breakLine(halfOpen);
-      cutters.delete(cut);
+      this.cutters.delete(cut);
     };
-    cutters.add(cut);
+    this.cutters.add(cut);
     const forget = (): void => {
-      if (one.ended() && two.ended()) cutters.delete(cut);
+      if (one.ended() && two.ended()) this.cutters.delete(cut);
     };
     one.whenEnded(forget);
     two.whenEnded(forget);
     return [one.stream, two.stream];
   }
 
-  function half(peer: Address, towards: Side) {
+  half(peer: Address, towards: Side) {
     const line = {};
     let hear: ((lent: Uint8Array) => void) | null = null;
     let endHeard: ((ending: Ending) => void) | null = null;
@@ -125,9 +153,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
     let unheardBytes = 0;
     let waiting = 0;
     let broken = false;
-    let over: () => void = () => {
-      /* Nobody asked yet. */
-    };
+    let over: () => void = () => undefined;
     let other: { readonly arrive: (bytes: Uint8Array) => void; readonly end: (ending: Ending) => void } | null = null;
     const arrive = (bytes: Uint8Array): void => {
       if (ending) return;
@@ -148,24 +174,27 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
       endHeard?.(how);
       over();
     };
+    const endThere = (): void => {
+      other?.end({ sentence: "The other side closed the connection.", byPeer: true });
+    };
     const stream: ByteStream = {
       peer,
       get waiting() {
         return waiting;
       },
-      send(bytes) {
+      send: bytes => {
         if (ending || bytes.length === 0) return;
         // Nobody takes them any more, and nobody says so.
         if (broken) {
           waiting += bytes.length;
           return;
         }
-        const whole = spoiled(bytes, conditions, random);
-        const step = conditions.pieces > 0 ? conditions.pieces : whole.length;
+        const whole = spoiled(bytes, this.conditions, this.random);
+        const step = this.conditions.pieces > 0 ? this.conditions.pieces : whole.length;
         for (let at = 0; at < whole.length; at += step) {
           const piece = whole.subarray(at, at + step);
           waiting += piece.length;
-          post(
+          this.post(
             piece.length,
             () => {
               waiting -= piece.length;
@@ -187,19 +216,11 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
         endHeard = listen;
         if (ending?.byPeer) listen(ending);
       },
-      close() {
+      close: () => {
         if (ending) return;
         ending = { sentence: "The connection was closed here.", byPeer: false };
         over();
-        if (!broken)
-          post(
-            0,
-            () => {
-              other?.end({ sentence: "The other side closed the connection.", byPeer: true });
-            },
-            line,
-            towards,
-          );
+        if (!broken) this.post(0, endThere, line, towards);
       },
     };
     return {
@@ -220,23 +241,25 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
       },
     };
   }
+}
 
+function memoryNetworkOf(net: MemoryNetworkState): MemoryNetwork {
   return {
-    weather: conditions,
+    weather: net.conditions,
     get underWay() {
-      return underWay;
+      return net.underWay;
     },
     connect(to) {
       return new Promise(resolve => {
-        post(
+        net.post(
           0,
           () => {
-            const accept = servers.get(addressText(to));
-            if (!accept || conditions.refusing) {
+            const accept = net.servers.get(addressText(to));
+            if (!accept || net.conditions.refusing) {
               resolve({ kind: "refused", sentence: `Nobody answers at ${addressText(to)}.` });
               return;
             }
-            const [client, server] = pair({ host: "127.0.0.1", port: nextPort++ }, to);
+            const [client, server] = net.pair({ host: "127.0.0.1", port: net.nextPort++ }, to);
             accept(server);
             resolve({ kind: "connected", stream: client });
           },
@@ -246,41 +269,41 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
       });
     },
     listen(wanted, accept) {
-      const at = freePort(servers, wanted);
+      const at = net.freePort(net.servers, wanted);
       const key = addressText(at);
-      if (servers.has(key)) return Promise.resolve({ kind: "taken", sentence: `${key} is taken.` });
-      servers.set(key, accept);
+      if (net.servers.has(key)) return Promise.resolve({ kind: "taken", sentence: `${key} is taken.` });
+      net.servers.set(key, accept);
       return Promise.resolve({
         kind: "listening",
         address: at,
         close: () => {
-          if (servers.get(key) === accept) servers.delete(key);
+          if (net.servers.get(key) === accept) net.servers.delete(key);
         },
       });
     },
     bind(wanted) {
-      const at = freePort(sockets, wanted);
+      const at = net.freePort(net.sockets, wanted);
       const key = addressText(at);
-      if (sockets.has(key)) return Promise.resolve({ kind: "taken", sentence: `${key} is taken.` });
+      if (net.sockets.has(key)) return Promise.resolve({ kind: "taken", sentence: `${key} is taken.` });
       let hear: ((lent: Uint8Array, from: Address) => void) | null = null;
       const receive = (bytes: Uint8Array, from: Address): void => {
         hear?.(bytes, from);
       };
       const own = { receive, side: wanted.port === 0 ? "caller" : "listener" } as const;
-      sockets.set(key, own);
+      net.sockets.set(key, own);
       const socket: DatagramSocket = {
         address: at,
         send(bytes, to) {
-          if (sockets.get(key) !== own || random() < conditions.loss) return;
-          for (let copies = random() < conditions.duplicates ? 2 : 1; copies > 0; copies--) {
-            const parcel = spoiled(bytes, conditions, random);
-            post(
+          if (net.sockets.get(key) !== own || net.random() < net.conditions.loss) return;
+          for (let copies = net.random() < net.conditions.duplicates ? 2 : 1; copies > 0; copies--) {
+            const parcel = spoiled(bytes, net.conditions, net.random);
+            net.post(
               parcel.length,
               () => {
-                sockets.get(addressText(to))?.receive(parcel, at);
+                net.sockets.get(addressText(to))?.receive(parcel, at);
               },
               null,
-              sockets.get(addressText(to))?.side ?? "listener",
+              net.sockets.get(addressText(to))?.side ?? "listener",
             );
           }
         },
@@ -288,21 +311,21 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
           hear = listen;
         },
         close() {
-          if (sockets.get(key) === own) sockets.delete(key);
+          if (net.sockets.get(key) === own) net.sockets.delete(key);
           hear = null;
         },
       };
       return Promise.resolve({ kind: "bound", socket });
     },
     cut(halfOpen = false) {
-      for (const cut of [...cutters]) cut(halfOpen);
+      for (const cut of [...net.cutters]) cut(halfOpen);
     },
     close() {
-      stop();
-      for (const cut of [...cutters]) cut(false);
-      servers.clear();
-      sockets.clear();
-      parcels = [];
+      net.stop();
+      for (const cut of [...net.cutters]) cut(false);
+      net.servers.clear();
+      net.sockets.clear();
+      net.parcels = [];
     },
   };
 }

@@ -1,4 +1,4 @@
-import { seededRandom, type Scheduler } from "@twincell/core";
+import { seededRandom, type Scheduler, type Random } from "@twincell/core";
 import { addressText, type Address, type ByteStream, type DatagramSocket, type Network } from "./port.ts";
 
 /** What befalls a controller that stands on a network, by switch. All at rest by default. */
@@ -35,83 +35,114 @@ interface Parcel {
   readonly deliver: () => void;
 }
 
+const isStill = ({ hangs, unplugged }: FaultInjection): boolean => hangs || unplugged;
+/** Parcels of one direction of one connection, in order. */
+class Line {
+  waiting = 0;
+  private readonly clock: Scheduler;
+  private readonly random: Random;
+  private readonly faults: FaultInjection;
+  private readonly parcels: Parcel[] = [];
+  constructor(clock: Scheduler, random: Random, faults: FaultInjection) {
+    this.clock = clock;
+    this.random = random;
+    this.faults = faults;
+  }
+  /** False when too much waits: the connection is to be cut. */
+  post(bytes: Uint8Array, deliver: (bytes: Uint8Array) => void, lossy: boolean): boolean {
+    if (lossy && (isStill(this.faults) || this.random() < this.faults.loss)) return true;
+    const late_s =
+      this.faults.delay_s + (!lossy && this.faults.loss > 0 && this.random() < this.faults.loss ? AGAIN_S : 0);
+    if (this.parcels.length === 0 && late_s === 0 && !isStill(this.faults)) {
+      deliver(bytes);
+      return true;
+    }
+    const copy = bytes.slice();
+    const last = this.parcels.at(-1);
+    this.waiting += copy.length;
+    this.parcels.push({
+      due_s: Math.max(this.clock.now_s() + late_s, last?.due_s ?? 0),
+      bytes: copy.length,
+      deliver: () => {
+        deliver(copy);
+      },
+    });
+    return this.waiting <= MOST_WAITING;
+  }
+  flush(now_s: number): void {
+    while (this.parcels.length > 0 && this.parcels[0]!.due_s <= now_s + 1e-9) {
+      const parcel = this.parcels.shift()!;
+      this.waiting -= parcel.bytes;
+      parcel.deliver();
+    }
+  }
+  clear(): void {
+    this.parcels.length = 0;
+    this.waiting = 0;
+  }
+}
+
 /**
  * Puts a network and a clock between a controller and the world, on which things go wrong by switch: whatever the
  * brand, and whatever the network is. A controller made on `network` and `scheduler` need not know of it.
  */
 export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): NetworkEmulator {
-  const faultInjection: FaultInjection = { delay_s: 0, loss: 0, hangs: false, unplugged: false };
-  const random = seededRandom(seed);
-  const streams = new Map<ByteStream, string>();
-  const heard = new Map<string, number>();
-  const lines = new Set<Line>();
-  let hung_s = 0;
-  let since_s = 0;
-  let wasHung = false;
-  const still = (): boolean => faultInjection.hangs || faultInjection.unplugged;
+  return emulateNetworkOf(new EmulatedNetwork(inner, clock, seed));
+}
 
-  /** Parcels of one direction of one connection, in order. */
-  class Line {
-    waiting = 0;
-    private readonly parcels: Parcel[] = [];
-    /** False when too much waits: the connection is to be cut. */
-    post(bytes: Uint8Array, deliver: (bytes: Uint8Array) => void, lossy: boolean): boolean {
-      if (lossy && (still() || random() < faultInjection.loss)) return true;
-      const late_s =
-        faultInjection.delay_s + (!lossy && faultInjection.loss > 0 && random() < faultInjection.loss ? AGAIN_S : 0);
-      if (this.parcels.length === 0 && late_s === 0 && !still()) {
-        deliver(bytes);
-        return true;
+class EmulatedNetwork {
+  readonly inner: Network;
+  readonly clock: Scheduler;
+  readonly seed: number;
+  readonly faultInjection: FaultInjection = { delay_s: 0, loss: 0, hangs: false, unplugged: false };
+  readonly random: Random;
+  readonly streams = new Map<ByteStream, string>();
+  readonly heard = new Map<string, number>();
+  readonly lines = new Set<Line>();
+  hung_s = 0;
+  since_s = 0;
+  wasHung = false;
+  readonly stop: () => void;
+  readonly scheduler: Scheduler;
+
+  constructor(inner: Network, clock: Scheduler, seed = 1) {
+    this.inner = inner;
+    this.clock = clock;
+    this.seed = seed;
+    this.random = seededRandom(this.seed);
+    this.stop = this.clock.every(TICK_S, () => {
+      if (this.faultInjection.hangs !== this.wasHung) {
+        this.wasHung = this.faultInjection.hangs;
+        if (this.wasHung) this.since_s = this.clock.now_s();
+        else this.hung_s += this.clock.now_s() - this.since_s;
       }
-      const copy = bytes.slice();
-      const last = this.parcels.at(-1);
-      this.waiting += copy.length;
-      this.parcels.push({
-        due_s: Math.max(clock.now_s() + late_s, last?.due_s ?? 0),
-        bytes: copy.length,
-        deliver: () => {
-          deliver(copy);
-        },
-      });
-      return this.waiting <= MOST_WAITING;
-    }
-    flush(now_s: number): void {
-      while (this.parcels.length > 0 && this.parcels[0]!.due_s <= now_s + 1e-9) {
-        const parcel = this.parcels.shift()!;
-        this.waiting -= parcel.bytes;
-        parcel.deliver();
-      }
-    }
-    clear(): void {
-      this.parcels.length = 0;
-      this.waiting = 0;
-    }
+      if (this.still()) return;
+      for (const line of this.lines) if (line.waiting > 0) line.flush(this.clock.now_s());
+    });
+    this.scheduler = {
+      now_s: () => (this.wasHung ? this.since_s : this.clock.now_s()) - this.hung_s,
+      every: (period_s, tick) =>
+        this.clock.every(period_s, () => {
+          if (!this.wasHung) tick();
+        }),
+    };
   }
 
-  const stop = clock.every(TICK_S, () => {
-    if (faultInjection.hangs !== wasHung) {
-      wasHung = faultInjection.hangs;
-      if (wasHung) since_s = clock.now_s();
-      else hung_s += clock.now_s() - since_s;
-    }
-    if (still()) return;
-    for (const line of lines) if (line.waiting > 0) line.flush(clock.now_s());
-  });
-  const scheduler: Scheduler = {
-    now_s: () => (wasHung ? since_s : clock.now_s()) - hung_s,
-    every: (period_s, tick) =>
-      clock.every(period_s, () => {
-        if (!wasHung) tick();
-      }),
-  };
+  still(): boolean {
+    return isStill(this.faultInjection);
+  }
 
-  function around(stream: ByteStream, where: string): ByteStream {
-    const out = new Line();
-    const into = new Line();
+  newLine(): Line {
+    return new Line(this.clock, this.random, this.faultInjection);
+  }
+
+  around(stream: ByteStream, where: string): ByteStream {
+    const out = this.newLine();
+    const into = this.newLine();
     const end = (): void => {
-      lines.delete(out);
-      lines.delete(into);
-      streams.delete(mine);
+      this.lines.delete(out);
+      this.lines.delete(into);
+      this.streams.delete(mine);
       out.clear();
       into.clear();
     };
@@ -153,16 +184,17 @@ export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): Netw
         stream.close();
       },
     };
-    lines.add(out);
-    lines.add(into);
-    streams.set(mine, `${addressText(stream.peer)} at ${where}`);
+    this.lines.add(out);
+    this.lines.add(into);
+    this.streams.set(mine, `${addressText(stream.peer)} at ${where}`);
     return mine;
   }
-  function aroundSocket(socket: DatagramSocket): DatagramSocket {
-    const out = new Line();
-    const into = new Line();
-    lines.add(out);
-    lines.add(into);
+
+  aroundSocket(socket: DatagramSocket): DatagramSocket {
+    const out = this.newLine();
+    const into = this.newLine();
+    this.lines.add(out);
+    this.lines.add(into);
     return {
       address: socket.address,
       send(bytes, to) {
@@ -174,10 +206,11 @@ export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): Netw
           true,
         );
       },
-      onDatagram(listen) {
+      onDatagram: listen => {
         socket.onDatagram((lent, from: Address) => {
           const who = `${addressText(from)} at ${socket.address.port}`;
-          if (!still() && (heard.has(who) || heard.size < MOST_PEERS)) heard.set(who, clock.now_s());
+          if (!this.still() && (this.heard.has(who) || this.heard.size < MOST_PEERS))
+            this.heard.set(who, this.clock.now_s());
           into.post(
             lent,
             late => {
@@ -187,44 +220,46 @@ export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): Netw
           );
         });
       },
-      close() {
-        lines.delete(out);
-        lines.delete(into);
+      close: () => {
+        this.lines.delete(out);
+        this.lines.delete(into);
         socket.close();
       },
     };
   }
+}
 
+function emulateNetworkOf(own: EmulatedNetwork): NetworkEmulator {
   return {
-    trouble: faultInjection,
-    scheduler,
+    trouble: own.faultInjection,
+    scheduler: own.scheduler,
     network: {
       connect: async to => {
-        const connected = await inner.connect(to);
+        const connected = await own.inner.connect(to);
         return connected.kind === "refused"
           ? connected
-          : { kind: "connected", stream: around(connected.stream, addressText(to)) };
+          : { kind: "connected", stream: own.around(connected.stream, addressText(to)) };
       },
       listen: (at, accept) =>
-        inner.listen(at, stream => {
-          accept(around(stream, String(at.port)));
+        own.inner.listen(at, stream => {
+          accept(own.around(stream, String(at.port)));
         }),
       bind: async at => {
-        const bound = await inner.bind(at);
-        return bound.kind === "taken" ? bound : { kind: "bound", socket: aroundSocket(bound.socket) };
+        const bound = await own.inner.bind(at);
+        return bound.kind === "taken" ? bound : { kind: "bound", socket: own.aroundSocket(bound.socket) };
       },
     },
     peers() {
-      const now_s = clock.now_s();
-      for (const [who, at_s] of heard) if (now_s - at_s > LATELY_S) heard.delete(who);
-      return [...streams.values(), ...heard.keys()];
+      const now_s = own.clock.now_s();
+      for (const [who, at_s] of own.heard) if (now_s - at_s > LATELY_S) own.heard.delete(who);
+      return [...own.streams.values(), ...own.heard.keys()];
     },
     close() {
-      stop();
-      for (const line of lines) line.clear();
-      lines.clear();
-      streams.clear();
-      heard.clear();
+      own.stop();
+      for (const line of own.lines) line.clear();
+      own.lines.clear();
+      own.streams.clear();
+      own.heard.clear();
     },
   };
 }

@@ -1,4 +1,4 @@
-import type { CommandOutcome, JointSample, Refusal, RobotController, Scheduler } from "@twincell/core";
+import type { CommandOutcome, JointSample, Refusal, RobotController, Scheduler, Robot } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import { drivesOff, guardOpen, manualMode, protective } from "../refusals.ts";
 
@@ -52,113 +52,133 @@ const LOG_LENGTH = 200;
  * the robot, commands from here are refused with the reason (rows T-26, T-27).
  */
 export function createTwin(options: TwinOptions): Twin {
-  const { real, scheduler } = options;
-  const { robot } = real;
-  const n = robot.arm.joints.length;
-  const mirror = options.mirror ?? memoryMirror(real);
-  const samples = listeners<JointSample>();
-  const log: TwinLogEntry[] = [];
-  const shown_rad = mirror.read(new Float64Array(n));
-  const before_rad = new Float64Array(n);
-  let mirror_rad = 0;
-  let command_rad = 0;
-  let awaiting = "";
-  let mode: JointSample["mode"] | null = null;
-  let safety: JointSample["safety"] = "normal";
-  let message = "";
+  return twinOf(new TwinState(options));
+}
 
-  const note = (what: TwinLogEntry["what"], says: string): void => {
-    log.push({ what, at_s: scheduler.now_s(), says });
-    if (log.length > LOG_LENGTH) log.shift();
-  };
+class TwinState {
+  readonly options: TwinOptions;
+  readonly real: RobotController;
+  readonly scheduler: Scheduler;
+  readonly robot: Robot;
+  readonly n: number;
+  readonly mirror: Mirror;
+  readonly samples = listeners<JointSample>();
+  readonly log: TwinLogEntry[] = [];
+  readonly shown_rad: Float64Array;
+  readonly before_rad: Float64Array;
+  mirror_rad = 0;
+  command_rad = 0;
+  awaiting = "";
+  mode: JointSample["mode"] | null = null;
+  safety: JointSample["safety"] = "normal";
+  message = "";
+  readonly lent: { -readonly [K in keyof JointSample]: JointSample[K] };
+  readonly unsubscribe: () => void;
 
-  const lent: { -readonly [K in keyof JointSample]: JointSample[K] } = {
-    sequence: 0,
-    time_s: 0,
-    q_rad: shown_rad,
-    moving: false,
-    mode: "automatic",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    step: "",
-    message: "",
-  };
-  const unsubscribe = real.onSample(sample => {
-    ({ mode, safety, message } = sample);
-    before_rad.set(shown_rad);
-    mirror.show(sample);
-    mirror.read(shown_rad);
-    mirror_rad = Math.max(mirror_rad, largest(shown_rad, sample.q_rad));
-    if (awaiting !== "" && largest(shown_rad, before_rad) > 0) {
-      note("pose", awaiting);
-      awaiting = "";
-    }
-    Object.assign(lent, sample, { q_rad: shown_rad });
-    samples.call(lent);
-  });
+  constructor(options: TwinOptions) {
+    this.options = options;
+    this.real = this.options.real;
+    this.scheduler = this.options.scheduler;
+    this.robot = this.real.robot;
+    this.n = this.robot.arm.joints.length;
+    this.mirror = this.options.mirror ?? memoryMirror(this.real);
+    this.shown_rad = this.mirror.read(new Float64Array(this.n));
+    this.before_rad = new Float64Array(this.n);
+    this.lent = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: this.shown_rad,
+      moving: false,
+      mode: "automatic",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      step: "",
+      message: "",
+    };
+    this.unsubscribe = this.real.onSample(sample => {
+      ({ mode: this.mode, safety: this.safety, message: this.message } = sample);
+      this.before_rad.set(this.shown_rad);
+      this.mirror.show(sample);
+      this.mirror.read(this.shown_rad);
+      this.mirror_rad = Math.max(this.mirror_rad, largest(this.shown_rad, sample.q_rad));
+      if (this.awaiting !== "" && largest(this.shown_rad, this.before_rad) > 0) {
+        this.note("pose", this.awaiting);
+        this.awaiting = "";
+      }
+      Object.assign(this.lent, sample, { q_rad: this.shown_rad });
+      this.samples.call(this.lent);
+    });
+  }
+
+  note(what: TwinLogEntry["what"], says: string): void {
+    this.log.push({ what, at_s: this.scheduler.now_s(), says });
+    if (this.log.length > LOG_LENGTH) this.log.shift();
+  }
 
   /** Why the studio may not command now; the real robot is not even asked. */
-  function held(): Refusal | null {
-    if (safety === "emergency-stop") return drivesOff(robot);
-    if (safety === "protective-stop") return protective(message);
-    if (safety === "guard-stop") return guardOpen(robot);
-    return mode === "manual" ? manualMode(robot) : null;
+  held(): Refusal | null {
+    if (this.safety === "emergency-stop") return drivesOff(this.robot);
+    if (this.safety === "protective-stop") return protective(this.message);
+    if (this.safety === "guard-stop") return guardOpen(this.robot);
+    return this.mode === "manual" ? manualMode(this.robot) : null;
   }
 
   /** Real first: the mirror is not touched here. */
-  async function command(
+  async command(
     says: string,
     send: () => Promise<CommandOutcome>,
     targets: (measured_rad: Float64Array) => Float64Array | null,
   ): Promise<CommandOutcome> {
-    const why = held();
+    const why = this.held();
     if (why) return { kind: "refused", why };
-    note("command", says);
-    awaiting = says;
+    this.note("command", says);
+    this.awaiting = says;
     const outcome = await send();
     if (outcome.kind === "done") {
-      const measured_rad = real.jointAngles();
+      const measured_rad = this.real.jointAngles();
       const wanted_rad = targets(measured_rad);
-      if (wanted_rad) command_rad = Math.max(command_rad, largest(measured_rad, wanted_rad));
+      if (wanted_rad) this.command_rad = Math.max(this.command_rad, largest(measured_rad, wanted_rad));
     }
     return outcome;
   }
+}
 
+function twinOf(own: TwinState): Twin {
   return {
     kind: "twin",
-    name: options.name ?? `Twin of ${real.name}`,
-    robot,
-    log,
-    ...(real.signals === undefined ? {} : { signals: real.signals }),
+    name: own.options.name ?? `Twin of ${own.real.name}`,
+    robot: own.robot,
+    log: own.log,
+    ...(own.real.signals === undefined ? {} : { signals: own.real.signals }),
     get accuracy() {
-      return { mirror_rad, command_rad };
+      return { mirror_rad: own.mirror_rad, command_rad: own.command_rad };
     },
     clearLog() {
-      log.length = 0;
-      mirror_rad = 0;
-      command_rad = 0;
-      awaiting = "";
+      own.log.length = 0;
+      own.mirror_rad = 0;
+      own.command_rad = 0;
+      own.awaiting = "";
     },
-    onSample: listen => samples.add(listen),
+    onSample: listen => own.samples.add(listen),
     close() {
-      unsubscribe();
-      samples.clear();
+      own.unsubscribe();
+      own.samples.clear();
     },
-    isMoving: () => real.isMoving(),
+    isMoving: () => own.real.isMoving(),
     setSpeed(percent) {
-      const why = mode === "manual" ? manualMode(robot) : null;
-      return why ? { kind: "refused", why } : real.setSpeed(percent);
+      const why = own.mode === "manual" ? manualMode(own.robot) : null;
+      return why ? { kind: "refused", why } : own.real.setSpeed(percent);
     },
-    jointAngle: joint => shown_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) {
-      out.set(shown_rad);
+    jointAngle: joint => own.shown_rad[joint - 1] ?? NaN,
+    jointAngles(out = new Float64Array(own.n)) {
+      out.set(own.shown_rad);
       return out;
     },
     moveJoint: (joint, angle_rad) =>
-      command(
+      own.command(
         `move joint ${joint}`,
-        () => real.moveJoint(joint, angle_rad),
+        () => own.real.moveJoint(joint, angle_rad),
         measured_rad => {
           const wanted_rad = Float64Array.from(measured_rad);
           wanted_rad[joint - 1] = angle_rad;
@@ -167,36 +187,36 @@ export function createTwin(options: TwinOptions): Twin {
       ),
     moveJoints(q_rad) {
       const wanted_rad = Float64Array.from(q_rad);
-      return command(
+      return own.command(
         "move joints",
-        () => real.moveJoints(wanted_rad),
+        () => own.real.moveJoints(wanted_rad),
         () => wanted_rad,
       );
     },
     moveToPose: baseFromFlange =>
-      command(
+      own.command(
         "move to pose",
-        () => real.moveToPose(baseFromFlange),
+        () => own.real.moveToPose(baseFromFlange),
         () => null,
       ),
     moveToZero: () =>
-      command(
+      own.command(
         "move to zero",
-        () => real.moveToZero(),
-        () => new Float64Array(n),
+        () => own.real.moveToZero(),
+        () => new Float64Array(own.n),
       ),
     run: (steps, context) =>
-      command(
+      own.command(
         "run",
-        () => real.run(steps, context),
+        () => own.real.run(steps, context),
         () => null,
       ),
-    cannotCarryOut: step => real.cannotCarryOut(step),
+    cannotCarryOut: step => own.real.cannotCarryOut(step),
     stop(emergency = false) {
-      note("command", emergency ? "emergency stop" : "stop");
-      real.stop(emergency);
+      own.note("command", emergency ? "emergency stop" : "stop");
+      own.real.stop(emergency);
     },
-    reset: () => real.reset(),
+    reset: () => own.real.reset(),
   };
 }
 

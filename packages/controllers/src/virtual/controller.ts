@@ -102,66 +102,98 @@ const CATCH_UP_S = 1;
 
 /** A robot made of numbers, with a controller's habits: modes, override, limits, stops, samples in its own cycle. */
 export function createVirtualController(options: VirtualOptions): VirtualController {
-  const { robot, scheduler } = options;
-  const cycle_s = options.cycle_s ?? 0.004;
-  const maxSpeed = options.maxSpeed ?? 1;
-  const solve: Solve | null =
-    options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
-  const name = options.name ?? `Virtual ${robot.name}`;
-  const n = robot.arm.joints.length;
+  return virtualControllerOf(new VirtualArm(options));
+}
+
+class VirtualArm {
+  readonly options: VirtualOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly cycle_s: number;
+  readonly maxSpeed: number;
+  readonly solve: Solve | null;
+  readonly name: string;
+  readonly n: number;
   // The slowest joint from full speed to rest, and the cycles in which the command comes through.
-  const brakingTime_s = hardBrakingTime_s(robot) + 2 * cycle_s;
-  const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
-  const samples = listeners<JointSample>();
-  const signals = new SignalTable();
-  const lent: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad: new Float64Array(n),
-    moving: false,
-    mode: options.mode ?? "automatic",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    step: "",
-    message: "",
-    signals: signals.all,
-  };
-  let mode: OperatingMode = lent.mode;
-  let safety: SafetyState = "normal";
-  let override = 1;
-  let gripperClosed = false;
-  let message = "";
-  let guardIsOpen = false;
-  let why: Refusal | null = null;
-  let command: Command | null = null;
-  let cycles = 0;
-  let skipped = 0;
-  let isClosed = false;
-  const begun_s = scheduler.now_s();
+  readonly brakingTime_s: number;
+  readonly q_rad: Float64Array;
+  readonly samples = listeners<JointSample>();
+  readonly signals = new SignalTable();
+  readonly lent: Lent;
+  mode: OperatingMode;
+  safety: SafetyState = "normal";
+  override = 1;
+  gripperClosed = false;
+  message = "";
+  guardIsOpen = false;
+  why: Refusal | null = null;
+  command: Command | null = null;
+  cycles = 0;
+  skipped = 0;
+  isClosed = false;
+  readonly begun_s: number;
+  readonly stopCycle: () => void;
 
-  const isMoving = (): boolean => command !== null && (command.begun ? command.moving : override > 0);
+  constructor(options: VirtualOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.cycle_s = this.options.cycle_s ?? 0.004;
+    this.maxSpeed = this.options.maxSpeed ?? 1;
+    this.solve =
+      this.options.solve === undefined ? (pose, near) => solveAll(this.robot, pose, { near }) : this.options.solve;
+    this.name = this.options.name ?? `Virtual ${this.robot.name}`;
+    this.n = this.robot.arm.joints.length;
+    this.brakingTime_s = hardBrakingTime_s(this.robot) + 2 * this.cycle_s;
+    this.q_rad = Float64Array.from(this.options.start_rad ?? this.robot.home_rad);
+    this.lent = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: new Float64Array(this.n),
+      moving: false,
+      mode: this.options.mode ?? "automatic",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      step: "",
+      message: "",
+      signals: this.signals.all,
+    };
+    this.mode = this.lent.mode;
+    this.begun_s = this.scheduler.now_s();
+    this.options.initialize?.();
+    this.stopCycle = this.scheduler.every(this.cycle_s, () => {
+      const due = Math.floor((this.scheduler.now_s() - this.begun_s) / this.cycle_s + 1e-6) - this.skipped;
+      const late = due - this.cycles - Math.ceil(CATCH_UP_S / this.cycle_s);
+      if (late > 0) this.skipped += late;
+      const until = due - Math.max(0, late);
+      while (this.cycles < until && !this.isClosed) this.cycle();
+    });
+  }
 
-  function finish(outcome: CommandOutcome): void {
-    const ended = command;
-    command = null;
-    if (outcome.kind !== "done") message = outcome.why.sentence;
+  readonly isMoving = (): boolean =>
+    this.command !== null && (this.command.begun ? this.command.moving : this.override > 0);
+
+  finish(outcome: CommandOutcome): void {
+    const ended = this.command;
+    this.command = null;
+    if (outcome.kind !== "done") this.message = outcome.why.sentence;
     ended?.resolve(outcome);
   }
 
   /** One cycle of motion; what ended with it, if anything did. */
-  function move(at: Command): CommandOutcome | null {
+  move(at: Command): CommandOutcome | null {
     const { begun } = at;
     let state: StepperState;
     try {
-      state = at.stepper.advance(cycle_s, override * maxSpeed, q_rad);
+      state = at.stepper.advance(this.cycle_s, this.override * this.maxSpeed, this.q_rad);
     } catch (reason) {
       // Steps may come from a running program text, and that may fault: the program ends, the robot goes on being a
       // robot.
       return { kind: "stopped", why: programFault(reason) };
     }
-    gripperClosed = state.gripperClosed;
-    if (state.message !== "") message = state.message;
+    this.gripperClosed = state.gripperClosed;
+    if (state.message !== "") this.message = state.message;
     at.begun = true;
     at.moving = state.moving;
     at.step = state.step;
@@ -170,72 +202,74 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     return at.stopping ? { kind: "stopped", why: at.stopping } : DONE;
   }
 
-  function cycle(): void {
-    cycles++;
-    const outcome = command && move(command);
-    if (outcome) finish(outcome);
-    lent.sequence = cycles;
-    lent.time_s = (cycles + skipped) * cycle_s;
-    lent.q_rad.set(q_rad);
-    lent.moving = isMoving();
-    lent.mode = mode;
-    lent.safety = safety;
-    lent.override = override;
-    lent.gripperClosed = gripperClosed;
-    lent.message = message;
-    lent.step = command?.step ?? "";
-    samples.call(lent);
+  cycle(): void {
+    this.cycles++;
+    const outcome = this.command && this.move(this.command);
+    if (outcome) this.finish(outcome);
+    this.lent.sequence = this.cycles;
+    this.lent.time_s = (this.cycles + this.skipped) * this.cycle_s;
+    this.lent.q_rad.set(this.q_rad);
+    this.lent.moving = this.isMoving();
+    this.lent.mode = this.mode;
+    this.lent.safety = this.safety;
+    this.lent.override = this.override;
+    this.lent.gripperClosed = this.gripperClosed;
+    this.lent.message = this.message;
+    this.lent.step = this.command?.step ?? "";
+    this.samples.call(this.lent);
   }
 
-  options.initialize?.();
-  const stopCycle = scheduler.every(cycle_s, () => {
-    const due = Math.floor((scheduler.now_s() - begun_s) / cycle_s + 1e-6) - skipped;
-    const late = due - cycles - Math.ceil(CATCH_UP_S / cycle_s);
-    if (late > 0) skipped += late;
-    const until = due - Math.max(0, late);
-    while (cycles < until && !isClosed) cycle();
-  });
+  unfit(): Refusal | null {
+    return this.isClosed
+      ? closed(this.name)
+      : this.safety !== "normal"
+        ? this.why
+        : this.command
+          ? busy(this.robot)
+          : null;
+  }
 
-  const unfit = (): Refusal | null =>
-    isClosed ? closed(name) : safety !== "normal" ? why : command ? busy(robot) : null;
-  const notNow = (): Refusal | null =>
-    !isClosed && safety === "normal" && mode === "manual" ? manualMode(robot) : unfit();
+  readonly notNow = (): Refusal | null =>
+    !this.isClosed && this.safety === "normal" && this.mode === "manual" ? manualMode(this.robot) : this.unfit();
 
-  function refuse(reason: Refusal): CommandOutcome {
-    message = reason.sentence;
+  refuse(reason: Refusal): CommandOutcome {
+    this.message = reason.sentence;
     return refused(reason);
   }
 
   /** A stop cleared, by a command or by the key at the robot itself. */
-  function resetHere(): CommandOutcome {
-    if (isClosed) return refused(closed(name));
-    if (command) return refuse(stillBraking(robot));
-    if (guardIsOpen) return refuse(guardStillOpen(robot));
-    safety = "normal";
-    why = null;
-    message = "";
+  readonly resetHere = (): CommandOutcome => {
+    if (this.isClosed) return refused(closed(this.name));
+    if (this.command) return this.refuse(stillBraking(this.robot));
+    if (this.guardIsOpen) return this.refuse(guardStillOpen(this.robot));
+    this.safety = "normal";
+    this.why = null;
+    this.message = "";
     return DONE;
-  }
+  };
 
   /** Carries out steps from standstill. Everything that moves the virtual robot goes through here. */
-  function start(steps: Iterator<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome> {
-    message = "";
-    const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
-    const stepper = new Stepper(robot, plan, steps, q_rad, { gripperClosed, signals });
+  start(steps: Iterator<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome> {
+    this.message = "";
+    const plan = this.options.worldFromBase ? { ...context, worldFromBase: this.options.worldFromBase } : context;
+    const stepper = new Stepper(this.robot, plan, steps, this.q_rad, {
+      gripperClosed: this.gripperClosed,
+      signals: this.signals,
+    });
     return new Promise(resolve => {
-      command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" };
+      this.command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" };
     });
   }
 
   /** The one motion primitive (rows T-12, T-13): joint targets, checked, then carried out over many cycles. */
-  async function moveRobotJoints(
+  async moveRobotJoints(
     target_rad: ArrayLike<number>,
-    fit: () => Refusal | null = notNow,
+    fit: () => Refusal | null = this.notNow,
     ratio = 1,
   ): Promise<CommandOutcome> {
-    const reason = fit() ?? jointRefusal(robot, target_rad);
-    if (reason) return refuse(reason);
-    options.onMotion?.(target_rad);
+    const reason = fit() ?? jointRefusal(this.robot, target_rad);
+    if (reason) return this.refuse(reason);
+    this.options.onMotion?.(target_rad);
     const step: Step = {
       id: "",
       type: "move",
@@ -244,133 +278,140 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       speed: { ratio },
       blend_m: 0,
     };
-    return start([step][Symbol.iterator](), { tools: {}, frames: {} });
+    return this.start([step][Symbol.iterator](), { tools: {}, frames: {} });
   }
 
-  function brake(state: SafetyState, reason: Refusal): void {
+  brake(state: SafetyState, reason: Refusal): void {
     if (state !== "normal") {
-      safety = state;
-      why = reason;
+      this.safety = state;
+      this.why = reason;
     }
-    message = reason.sentence;
-    if (command && !command.stopping) {
-      command.stopping = reason;
-      command.stepper.stop(true);
+    this.message = reason.sentence;
+    if (this.command && !this.command.stopping) {
+      this.command.stopping = reason;
+      this.command.stepper.stop(true);
     }
     // Held where it stands there is nothing to brake, now or when the override comes back.
-    if (command && command.begun && !command.moving && override === 0) finish({ kind: "stopped", why: reason });
+    if (this.command && this.command.begun && !this.command.moving && this.override === 0)
+      this.finish({ kind: "stopped", why: reason });
   }
+}
 
+function virtualControllerOf(arm: VirtualArm): VirtualController {
   return {
     kind: "virtual",
-    name,
-    robot,
-    brakingTime_s,
-    signals,
-    onSample: listen => samples.add(listen),
+    name: arm.name,
+    robot: arm.robot,
+    brakingTime_s: arm.brakingTime_s,
+    signals: arm.signals,
+    onSample: listen => arm.samples.add(listen),
     close() {
-      if (isClosed) return;
-      isClosed = true;
-      stopCycle();
-      if (command) finish({ kind: "stopped", why: closed(name) });
-      samples.clear();
+      if (arm.isClosed) return;
+      arm.isClosed = true;
+      arm.stopCycle();
+      if (arm.command) arm.finish({ kind: "stopped", why: closed(arm.name) });
+      arm.samples.clear();
     },
-    isMoving,
+    isMoving: arm.isMoving,
     setSpeed(percent) {
       const reason = percentRefusal(percent);
-      if (reason) return refuse(reason);
-      override = percent / 100;
+      if (reason) return arm.refuse(reason);
+      arm.override = percent / 100;
       return DONE;
     },
-    jointAngle: joint => q_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) {
-      out.set(q_rad);
+    jointAngle: joint => arm.q_rad[joint - 1] ?? NaN,
+    jointAngles(out = new Float64Array(arm.n)) {
+      out.set(arm.q_rad);
       return out;
     },
     async moveJoint(joint, angle_rad) {
-      const reason = jointNumberRefusal(robot, joint);
-      if (reason) return refuse(reason);
-      const target = Float64Array.from(q_rad);
+      const reason = jointNumberRefusal(arm.robot, joint);
+      if (reason) return arm.refuse(reason);
+      const target = Float64Array.from(arm.q_rad);
       target[joint - 1] = angle_rad;
-      return moveRobotJoints(target);
+      return arm.moveRobotJoints(target);
     },
-    moveJoints: target_rad => moveRobotJoints(target_rad),
-    moveToZero: () => moveRobotJoints(new Float64Array(n)),
+    moveJoints: target_rad => arm.moveRobotJoints(target_rad),
+    moveToZero: () => arm.moveRobotJoints(new Float64Array(arm.n)),
     cannotCarryOut: () => null,
     async moveToPose(baseFromFlange) {
-      if (!solve) {
-        return refuse({
+      if (!arm.solve) {
+        return arm.refuse({
           code: "controller.no-solver",
-          sentence: `${name} has no solver for poses.`,
+          sentence: `${arm.name} has no solver for poses.`,
           hint: "Attach one, or command joint angles.",
         });
       }
-      const reach = solve(baseFromFlange, q_rad);
+      const reach = arm.solve(baseFromFlange, arm.q_rad);
       const nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
       if (!nearest)
-        return refuse({
+        return arm.refuse({
           code: `reach.${reach.kind}`,
           sentence: explainReach(reach),
           hint: "Choose a pose within reach.",
         });
-      return moveRobotJoints(nearest.q_rad);
+      return arm.moveRobotJoints(nearest.q_rad);
     },
     async run(steps, context) {
-      const reason = notNow();
-      return reason ? refuse(reason) : start(steps[Symbol.iterator](), context);
+      const reason = arm.notNow();
+      return reason ? arm.refuse(reason) : arm.start(steps[Symbol.iterator](), context);
     },
     stop(emergency = false) {
-      if (emergency) brake("emergency-stop", drivesOff(robot));
-      else brake("normal", stopped("controller.stopped", `${robot.name} was stopped.`));
+      if (emergency) arm.brake("emergency-stop", drivesOff(arm.robot));
+      else arm.brake("normal", stopped("controller.stopped", `${arm.robot.name} was stopped.`));
     },
-    reset: () => Promise.resolve(resetHere()),
+    reset: () => Promise.resolve(arm.resetHere()),
     jumpTo(target_rad) {
-      const reason = unfit() ?? jointRefusal(robot, target_rad);
-      if (reason) return refuse(reason);
-      q_rad.set(Float64Array.from(target_rad));
+      const reason = arm.unfit() ?? jointRefusal(arm.robot, target_rad);
+      if (reason) return arm.refuse(reason);
+      arm.q_rad.set(Float64Array.from(target_rad));
       return DONE;
     },
-    atTheRobot: {
-      reset: resetHere,
-      setMode(to) {
-        if (to === mode) return;
-        mode = to;
-        brake("normal", stopped("controller.mode-changed", `${robot.name} was switched to ${to} mode.`));
-      },
-      jog: (target_rad, ratio = 1) =>
-        moveRobotJoints(
-          target_rad,
-          () =>
-            mode === "manual"
-              ? unfit()
-              : {
-                  code: "controller.not-manual",
-                  sentence: `${robot.name} is in ${mode} mode; its pendant jogs in manual mode only.`,
-                  hint: "Turn the mode switch to manual.",
-                },
-          ratio,
-        ),
-      setOverride(percent) {
-        const reason = percentRefusal(percent);
-        if (reason) return refuse(reason);
-        override = percent / 100;
-        return DONE;
-      },
-      setGuardOpen(open) {
-        guardIsOpen = open;
-        if (open && safety === "normal") brake("guard-stop", guardOpen(robot));
-        if (!open && safety === "guard-stop") {
-          safety = "normal";
-          why = null;
-          message = "";
-        }
-      },
-      setInput(signal, value) {
-        signals.write(signal, value);
-      },
-      protectiveStop(because) {
-        if (safety !== "emergency-stop") brake("protective-stop", protective(because));
-      },
+    atTheRobot: atTheRobotOf(arm),
+  };
+}
+
+function atTheRobotOf(arm: VirtualArm): AtTheRobot {
+  return {
+    reset: arm.resetHere,
+    setMode(to) {
+      if (to === arm.mode) return;
+      arm.mode = to;
+      arm.brake("normal", stopped("controller.mode-changed", `${arm.robot.name} was switched to ${to} mode.`));
+    },
+    jog: (target_rad, ratio = 1) =>
+      arm.moveRobotJoints(
+        target_rad,
+        () =>
+          arm.mode === "manual"
+            ? arm.unfit()
+            : {
+                code: "controller.not-manual",
+                sentence: `${arm.robot.name} is in ${arm.mode} mode; its pendant jogs in manual mode only.`,
+                hint: "Turn the mode switch to manual.",
+              },
+        ratio,
+      ),
+    setOverride(percent) {
+      const reason = percentRefusal(percent);
+      if (reason) return arm.refuse(reason);
+      arm.override = percent / 100;
+      return DONE;
+    },
+    setGuardOpen(open) {
+      arm.guardIsOpen = open;
+      if (open && arm.safety === "normal") arm.brake("guard-stop", guardOpen(arm.robot));
+      if (!open && arm.safety === "guard-stop") {
+        arm.safety = "normal";
+        arm.why = null;
+        arm.message = "";
+      }
+    },
+    setInput(signal, value) {
+      arm.signals.write(signal, value);
+    },
+    protectiveStop(because) {
+      if (arm.safety !== "emergency-stop") arm.brake("protective-stop", protective(because));
     },
   };
 }

@@ -1,8 +1,8 @@
-import type { DriverKind } from "../driver/index.ts";
+import { startedDriver, type DriverKind } from "../driver/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
 import { FILE_PORT, ROBOT_PORT, scaleWith } from "./codec/index.ts";
 import { yaskawaAdapter } from "./adapter/index.ts";
-import { yaskawaPendant } from "./pendant.ts";
+import { yaskawaPendant } from "./virtual/pendant.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
 
 const PORTS = { robot: ROBOT_PORT, files: FILE_PORT };
@@ -39,22 +39,18 @@ export const yaskawa: DriverKind = {
     if (started.kind === "taken") return started;
     const { controller } = started;
     const { neutral, robot } = controller;
-    return {
-      kind: "started",
-      virtual: {
-        name: `Virtual Yaskawa ${robot.name.replace(/^Yaskawa /, "")}`,
-        robot,
-        ports: controller.ports,
-        brakingTime_s: controller.brakingTime_s,
-        pendant: yaskawaPendant(controller),
-        jointAngles: out => neutral.jointAngles(out),
-        reboot() {
-          controller.reboot(REBOOT_S);
-        },
-        close() {
-          controller.close();
-        },
+    return startedDriver({
+      name: `Virtual Yaskawa ${robot.name.replace(/^Yaskawa /, "")}`,
+      robot,
+      ports: controller.ports,
+      arm: { brakingTime_s: controller.brakingTime_s, jointAngles: out => neutral.jointAngles(out) },
+      pendant: yaskawaPendant(controller),
+      reboot: () => {
+        controller.reboot(REBOOT_S);
       },
-    };
+      close: () => {
+        controller.close();
+      },
+    });
   },
 };

@@ -33,11 +33,16 @@ export interface CarriedPart {
   readonly flangeFromObject: Pose<"flange", "object">;
   readonly taken: Seat;
   readonly put: Seat | undefined;
+  /** When the gripper closes on it, in seconds of the plan; 0 for what is held from the start. */
+  readonly taken_s: number;
+  /** When it is let go; undefined when it is held to the end. */
+  readonly put_s: number | undefined;
 }
 /** A part on its way from one grasp to its release. */
 interface Hold extends CarriedPart {
   readonly radius_m: number;
   put: Seat | undefined;
+  put_s: number | undefined;
   /** The motions in between, in order. */
   readonly motions: MotionSegment[];
 }
@@ -153,7 +158,16 @@ export class GraspedParts {
         const worldFromObject = stands.get(id)!;
         const flangeFromObject = compose(inverse(worldFromFlange), worldFromObject);
         const taken = { worldFromObject, on: new Set(collider.standingNear(id, TOUCH_M)) };
-        hold = { id, radius_m: radiusOf(cell, id), flangeFromObject, taken, put: undefined, motions: [] };
+        hold = {
+          id,
+          radius_m: radiusOf(cell, id),
+          flangeFromObject,
+          taken,
+          taken_s: segment.start_s,
+          put: undefined,
+          put_s: undefined,
+          motions: [],
+        };
         holds.push(hold);
         this.taken++;
         this.#change(segment, () => {
@@ -168,6 +182,7 @@ export class GraspedParts {
           this.#held = undefined;
           collider.detach(id, worldFromObject);
         });
+        hold.put_s = segment.start_s;
         hold.put = { worldFromObject, on: new Set(collider.standingNear(id, TOUCH_M)) };
         hold = undefined;
       }
@@ -178,7 +193,14 @@ export class GraspedParts {
 
   /** The parts that are carried, in the order they are taken. */
   get carried(): readonly CarriedPart[] {
-    return this.#holds.map(({ id, flangeFromObject, taken, put }) => ({ id, flangeFromObject, taken, put }));
+    return this.#holds.map(({ id, flangeFromObject, taken, put, taken_s, put_s }) => ({
+      id,
+      flangeFromObject,
+      taken,
+      put,
+      taken_s,
+      put_s,
+    }));
   }
 
   /** Id of the part that is held in the segment entered last. */
@@ -209,7 +231,16 @@ export class GraspedParts {
     this.#collider.detach(id, worldFromObject);
     const taken = { worldFromObject, on: new Set(this.#collider.standingNear(id, TOUCH_M)) };
     this.#collider.attach(id, flangeFromObject);
-    const hold = { id, radius_m: radiusOf(this.#cell, id), flangeFromObject, taken, put: undefined, motions: [] };
+    const hold: Hold = {
+      id,
+      radius_m: radiusOf(this.#cell, id),
+      flangeFromObject,
+      taken,
+      taken_s: 0,
+      put: undefined,
+      put_s: undefined,
+      motions: [],
+    };
     this.#holds.push(hold);
     return hold;
   }

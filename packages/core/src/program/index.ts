@@ -14,3 +14,6 @@ export * from "./parse.ts";
 export * from "./serialize.ts";
 export * from "./edit.ts";
 export * from "./retarget.ts";
+export * from "./join.ts";
+export * from "./recount.ts";
+export * from "./routines.ts";

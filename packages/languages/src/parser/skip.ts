@@ -80,6 +80,19 @@ function without<A extends { readonly kind: string }>(
   const skipped: LeftOut[] = [];
   const gone = new Set<number>();
   const blank = shapes.blank ?? (() => "");
+  /** Where the end of a block is not understood, all of the block goes: nobody knows how often it runs. */
+  const skipBlock = (fault: TextFault): Skipped => {
+    const at = fault.line - 1;
+    const from = firstOf(lines, at, shapes);
+    const last = Math.max(at, lastOf(lines, from, shapes));
+    const column = from === at ? fault.column : 1;
+    const said = told({ ...fault, line: from + 1, column }, lines[from]!, lines.slice(from, last + 1), shapes);
+    for (let i = from; i <= last; i++) {
+      lines[i] = blank(lines[i]!);
+      gone.add(i);
+    }
+    return said;
+  };
   let faults: readonly TextFault[] = [];
   let first: readonly TextFault[] | undefined;
   for (let reading = 0; reading < MOST_READINGS; reading++) {
@@ -102,15 +115,7 @@ function without<A extends { readonly kind: string }>(
       if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
       // A call that decides more than itself is not left out.
       if (only !== undefined && [shapes.opens, shapes.parts, shapes.closes].some(shape => shape.test(line))) continue;
-      // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
-      const from = firstOf(lines, at, shapes);
-      const last = Math.max(at, lastOf(lines, from, shapes));
-      const place = { ...fault, line: from + 1, column: from === at ? fault.column : 1 };
-      skipped.push({ ...told(place, lines[from]!, lines.slice(from, last + 1), shapes), fault });
-      for (let i = from; i <= last; i++) {
-        lines[i] = blank(lines[i]!);
-        gone.add(i);
-      }
+      skipped.push({ ...skipBlock(fault), fault });
       isShorter = true;
       // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
       if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;

@@ -121,13 +121,7 @@ export function neededFiles(
   const first = files.find(({ name }) => name === main);
   if (language === undefined || first === undefined || !Object.hasOwn(LANGUAGES, language) || files.length < 2)
     return files;
-  const by = new Map<string, PatchFile[]>();
-  for (const file of files)
-    for (const word of lookAt(language, file).offers) {
-      const known = by.get(word);
-      if (known === undefined) by.set(word, [file]);
-      else known.push(file);
-    }
+  const by = filesByOffer(language, files);
   const kept = new Set<PatchFile>();
   const offered = new Set<string>();
   const queue: PatchFile[] = [];
@@ -178,4 +172,15 @@ function isPartOf(language: string, part: PatchFile, file: PatchFile): boolean {
   if (language === "spel") return endingOf(part.name) === ".pts";
   if (language === "val3") return endingOf(part.name) === ".dtx";
   return false;
+}
+
+function filesByOffer(language: string, files: readonly PatchFile[]): ReadonlyMap<string, readonly PatchFile[]> {
+  const by = new Map<string, PatchFile[]>();
+  for (const file of files)
+    for (const word of lookAt(language, file).offers) {
+      const known = by.get(word);
+      if (known === undefined) by.set(word, [file]);
+      else known.push(file);
+    }
+  return by;
 }

@@ -39,13 +39,19 @@ export function editsOf(
 const configuration = (old: string, wanted: string): string =>
   old.replace(/\s+/g, "") === wanted.replace(/\s+/g, "") ? old : wanted;
 
+/** A number that is written in bits or hexadecimal digits, in its own way. */
+function bitsOf(old: string, wanted: string): string | undefined {
+  const written = /^'([BH])([0-9A-F]+)'$/i.exec(old);
+  if (written === null) return undefined;
+  const [, letter, digits] = written as unknown as [string, string, string];
+  const radix = letter.toUpperCase() === "B" ? 2 : 16;
+  if (Number.parseInt(digits, radix) === Number(wanted)) return old;
+  return `'${letter}${Number(wanted).toString(radix).toUpperCase().padStart(digits.length, "0")}'`;
+}
+
 function number(old: string, wanted: string, fine: boolean): string {
-  const radix = /^'([BH])([0-9A-F]+)'$/i.exec(old);
-  if (radix) {
-    const digits = Number(wanted).toString(radix[1]!.toUpperCase() === "B" ? 2 : 16);
-    const bits = Number.parseInt(radix[2]!, radix[1]!.toUpperCase() === "B" ? 2 : 16);
-    return bits === Number(wanted) ? old : `'${radix[1]!}${digits.toUpperCase().padStart(radix[2]!.length, "0")}'`;
-  }
+  const bits = bitsOf(old, wanted);
+  if (bits !== undefined) return bits;
   const digits = old.trim();
   const value = Number(wanted);
   const whole = !/[.eE]/.test(wanted) && !/[.eE]/.test(digits);

@@ -57,38 +57,58 @@ export interface StepTerms {
 }
 
 /** What about a step is not a matter of more or less, in words that follow "line 12 …". */
-export function stepDifference(
-  wanted: Step,
-  done: Step,
-  next: Step | undefined,
-  { mine, theirs, robot, resolution }: StepTerms,
-): string | undefined {
+export function stepDifference(wanted: Step, done: Step, next: Step | undefined, terms: StepTerms): string | undefined {
   if (wanted.type !== done.type) return `is a ${done.type} step, not a ${wanted.type} step.`;
-  if (wanted.type === "wait" && done.type === "wait")
-    return near(wanted.s, done.s, resolution.wait_s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
-  if (wanted.type === "gripper" && done.type === "gripper")
-    return wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`;
-  if (wanted.type === "set" && done.type === "set") {
+  if (wanted.type === "move" && done.type === "move") return moveDifference(wanted, done, next, terms);
+  const differ = wanted.type === "move" ? undefined : (DIFFERENCES[wanted.type] as Difference<Step> | undefined);
+  return differ?.(wanted, done, terms);
+}
+
+type Difference<S> = (wanted: S, done: S, terms: StepTerms) => string | undefined;
+type OfType<T extends Step["type"]> = Extract<Step, { readonly type: T }>;
+
+/** Steps that do not move the robot; those that are not here differ in nothing that an execution shows. */
+const DIFFERENCES: { readonly [T in Exclude<Step["type"], "move">]?: Difference<OfType<T>> } = {
+  wait: (wanted, done, { resolution }) =>
+    near(wanted.s, done.s, resolution.wait_s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`,
+  gripper: (wanted, done) =>
+    wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`,
+  set: (wanted, done, { mine, theirs }) => {
     if (!sameLine(wanted.signal, done.signal, mine, theirs)) return `sets ${done.signal}, not ${wanted.signal}.`;
     if (!sameLevel(wanted.to, done.to)) return `sets ${done.signal} to ${done.to}, not to ${wanted.to}.`;
     return near(wanted.pulse_s ?? 0, done.pulse_s ?? 0)
       ? undefined
       : `holds ${done.signal} for ${done.pulse_s ?? 0} s, not for ${wanted.pulse_s ?? 0} s.`;
-  }
-  if (wanted.type === "wait-for" && done.type === "wait-for") {
+  },
+  "wait-for": (wanted, done, { mine, theirs }) => {
     if (!sameCondition(wanted.when, done.when, mine, theirs))
       return `waits for ${JSON.stringify(done.when)}, not for ${JSON.stringify(wanted.when)}.`;
     return near(wanted.timeout_s ?? 0, done.timeout_s ?? 0)
       ? undefined
       : `waits ${done.timeout_s ?? 0} s at most, not ${wanted.timeout_s ?? 0} s.`;
-  }
-  if (wanted.type === "payload" && done.type === "payload")
-    return samePayload(wanted, done) ? undefined : `says another load of ${done.mass_kg} kg.`;
-  if (wanted.type === "message" && done.type === "message")
-    return plain(wanted.text) === plain(done.text) ? undefined : `says “${done.text}”.`;
-  if (wanted.type !== "move" || done.type !== "move") return undefined;
+  },
+  payload: (wanted, done) => (samePayload(wanted, done) ? undefined : `says another load of ${done.mass_kg} kg.`),
+  message: (wanted, done) => (plain(wanted.text) === plain(done.text) ? undefined : `says “${done.text}”.`),
+};
+
+function moveDifference(
+  wanted: MoveStep,
+  done: MoveStep,
+  next: Step | undefined,
+  terms: StepTerms,
+): string | undefined {
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
-  // On a joint move angles are angles; on the other paths only the tool counts.
+  return (
+    targetDifference(wanted, done, terms) ??
+    paceDifference(wanted, done, terms) ??
+    passingDifference(wanted, done, next, terms) ??
+    searchDifference(wanted, done, terms) ??
+    postureDifference(wanted, done, terms)
+  );
+}
+
+/** On a joint move angles are angles; on the other paths only the tool counts. */
+function targetDifference(wanted: MoveStep, done: MoveStep, { resolution }: StepTerms): string | undefined {
   const isAngles = "q" in wanted.target;
   const isWritten = "q" in done.target;
   if (
@@ -97,41 +117,56 @@ export function stepDifference(
     !(isAngles ? resolution.anglesAsPoses === true : resolution.posesAsAngles === true)
   )
     return "ends in another sort of target.";
-  if ((wanted.via === undefined) !== (done.via === undefined))
-    return done.via === undefined ? "passes through no other point." : "passes through another point.";
+  if ((wanted.via === undefined) === (done.via === undefined)) return undefined;
+  return done.via === undefined ? "passes through no other point." : "passes through another point.";
+}
+
+function paceDifference(wanted: MoveStep, done: MoveStep, { robot, resolution }: StepTerms): string | undefined {
   if (!sameSpeed(wanted.speed, done.speed, robot, resolution))
     return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
-  if (
-    !near(Math.max(resolution.leastAcceleration ?? 0, wanted.acceleration?.ratio ?? 1), done.acceleration?.ratio ?? 1)
-  )
-    return `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
+  const least = Math.max(resolution.leastAcceleration ?? 0, wanted.acceleration?.ratio ?? 1);
+  return near(least, done.acceleration?.ratio ?? 1)
+    ? undefined
+    : `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
+}
+
+function passingDifference(
+  wanted: MoveStep,
+  done: MoveStep,
+  next: Step | undefined,
+  { resolution }: StepTerms,
+): string | undefined {
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.
   if (!blends(wanted) && blends(done)) return "passes its target without a stop.";
   // Points of one spline are passed as they are.
   const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
-  if (
+  const isStopped =
     blends(wanted) &&
     !blends(done) &&
     !isInSpline &&
     next?.type === "move" &&
-    (resolution.stopsAtNewTool !== true || sameTool(wanted, next))
-  )
-    return "stops at its target.";
-  if (wanted.until !== undefined || done.until !== undefined) {
-    if (
-      wanted.until === undefined ||
-      done.until === undefined ||
-      wanted.until.missing !== done.until.missing ||
-      !sameCondition(wanted.until.when, done.until.when, mine, theirs)
-    )
-      return "searches otherwise.";
-  }
+    (resolution.stopsAtNewTool !== true || sameTool(wanted, next));
+  return isStopped ? "stops at its target." : undefined;
+}
+
+function searchDifference(wanted: MoveStep, done: MoveStep, { mine, theirs }: StepTerms): string | undefined {
+  if (wanted.until === undefined && done.until === undefined) return undefined;
+  return wanted.until === undefined ||
+    done.until === undefined ||
+    wanted.until.missing !== done.until.missing ||
+    !sameCondition(wanted.until.when, done.until.when, mine, theirs)
+    ? "searches otherwise."
+    : undefined;
+}
+
+/** Off a joint move the posture is that of the start: a language may leave it unsaid. */
+function postureDifference(wanted: MoveStep, done: MoveStep, { robot }: StepTerms): string | undefined {
   const configuration = postureOf(wanted.target, robot);
   const other = postureOf(done.target, robot);
-  // Off a joint move the posture is that of the start: a language may leave it unsaid.
-  if (configuration !== undefined && (other === undefined ? wanted.path === "ptp" : !sameBranch(configuration, other)))
-    return "reaches its target in another posture.";
-  return undefined;
+  return configuration !== undefined &&
+    (other === undefined ? wanted.path === "ptp" : !sameBranch(configuration, other))
+    ? "reaches its target in another posture."
+    : undefined;
 }
 
 const postureOf = (target: Target, robot: Robot): Branch | undefined =>

@@ -43,6 +43,26 @@ export const runBody = z.object({
     .exactOptional(z.array(text).max(100))
     .describe("Codes of red findings that you have seen and send it in spite of; any other keeps it from being sent."),
 });
+const order = {
+  program: runBody.shape.program,
+  asText: runBody.shape.asText,
+  despite: runBody.shape.despite,
+} as const;
+const stepIds = z.array(text).max(1000);
+export const produceBody = z.object({
+  ...order,
+  cycles: z.int().min(1).nullable().default(null).describe("null: until it is ended."),
+  breakpoints: stepIds.default([]).describe("Ids of steps of the program's own list before which it is held."),
+  stepping: z.boolean().default(false).describe("true: held before each step of that list."),
+});
+export const replaceBody = z.object(order);
+export const resumeBody = z.object({
+  from: z
+    .enum(["step", "cycle"])
+    .default("step")
+    .describe("With the step it was in, from where the robot stands; or with a cycle from its beginning."),
+});
+export const breakpointsBody = z.object({ steps: stepIds });
 export const stopBody = z.object({ emergency: z.boolean().default(false) });
 export const cellBody = z.object({ cell });
 const judged = {
@@ -63,7 +83,7 @@ const stationWords = z.object({
   virtual: z.boolean(),
   watchdog: z.string().describe("What stops the robot when nobody commands it any more."),
 });
-const part = <Type extends "sample" | "link" | "guard">(type: Type) => {
+const part = <Type extends "sample" | "link" | "guard" | "production">(type: Type) => {
   const found = eventSchema.options.find(({ shape }) => shape.type.value === type);
   if (!found) throw new Error(`There is no event “${type}”.`);
   return z.object({ ...found.shape });
@@ -74,6 +94,7 @@ export const stateSchema = z.object({
   sample: part("sample").nullable(),
   link: part("link").nullable(),
   guard: part("guard").nullable(),
+  production: part("production").nullable(),
 });
 export const robotListSchema = z.object({ robots: z.array(stationWords) });
 export const aboutSchema = z.object({

@@ -1,11 +1,14 @@
 import {
+  callableFrom,
   checkType,
   everyIn,
   initialOf,
+  nothingOf,
   parseExpression,
   predicateOf,
   predicateText,
   printExpression,
+  routineOf,
   scopeOf,
   variableNameFault,
   type AssignStep,
@@ -33,9 +36,7 @@ const BOOL: ValueType = { type: "bool" };
 
 /** What names mean where the step stands: parameters belong to their routine. */
 function scopeAt(program: Program, id: string): ExpressionScope {
-  const routine = Object.entries(program.routines).find(([, steps]) =>
-    Array.from(everyIn(steps)).some(step => step.id === id),
-  )?.[0];
+  const routine = routineOf(program, id);
   const { signals, variables = {}, parameters = {} } = program;
   return scopeOf({ signals, variables, parameters, routine });
 }
@@ -262,11 +263,7 @@ export function AssignFields({ program, step }: { program: Program; step: Assign
 
 /** What was assigned, where it fits the variable; else its first value. */
 function fitting(to: Expression, type: ValueType, program: Program, step: Step): Expression {
-  return checkType(to, type, scopeAt(program, step.id)).kind === "typed" ? to : nothing(type);
-}
-function nothing(type: ValueType): Expression {
-  if (type.type === "bool") return false;
-  return type.type === "num" && type.unit !== undefined ? { value: 0, unit: type.unit } : 0;
+  return checkType(to, type, scopeAt(program, step.id)).kind === "typed" ? to : nothingOf(type);
 }
 
 /** Kind, unit and first value of a variable. They can be changed while nothing else uses it in another way. */
@@ -395,7 +392,7 @@ export function CallFields({ program, step }: { program: Program; step: CallStep
               });
             }}
           >
-            {Object.keys(program.routines).map(name => (
+            {[...new Set([step.routine, ...callableFrom(program, routineOf(program, step.id))])].map(name => (
               <option key={name}>{name}</option>
             ))}
           </select>
@@ -407,7 +404,7 @@ export function CallFields({ program, step }: { program: Program; step: CallStep
           <ExpressionField
             key={`${step.id} ${step.routine} ${name}`}
             label={words.step.argument(name)}
-            text={printExpression(step.arguments?.[name] ?? nothing(type))}
+            text={printExpression(step.arguments?.[name] ?? nothingOf(type))}
             wanted={type}
             scope={scopeAt(program, step.id)}
             onChange={value =>

@@ -7,6 +7,7 @@ import { words } from "../../messages/index.ts";
 import { FrameInspector } from "./FrameInspector.tsx";
 import { ObjectInspector } from "./ObjectInspector.tsx";
 import { RobotInspector } from "./RobotInspector.tsx";
+import { RoutineInspector } from "./RoutineInspector.tsx";
 import { StepInspector } from "./StepInspector.tsx";
 import { ToolInspector } from "./ToolInspector.tsx";
 import "./inspector.css";
@@ -28,6 +29,14 @@ export function Inspector() {
       const object = objectOf(document, selected.id);
       return object ? (
         <ObjectInspector key={object.id} object={object} />
+      ) : (
+        <p className="empty">{words.inspector.nothing}</p>
+      );
+    }
+    case "routine": {
+      const program = programOf(document);
+      return program && Object.hasOwn(program.routines, selected.name) ? (
+        <RoutineInspector key={selected.name} program={program} name={selected.name} />
       ) : (
         <p className="empty">{words.inspector.nothing}</p>
       );

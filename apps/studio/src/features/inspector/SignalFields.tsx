@@ -2,112 +2,114 @@ import type { CommentStep, Program, RepeatStep, SetStep, WaitForStep } from "@tw
 import { changeStep } from "../../stores/program.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { words } from "../../messages/index.ts";
+import { NumberField } from "../../ui/NumberField.tsx";
 import { ConditionField, LimitFields } from "./ComputeFields.tsx";
+import { LineCondition, SignalChoice } from "./LineFields.tsx";
+import { Pair } from "./Pieces.tsx";
 
 const ON_OFF = [
   { value: "on", words: words.common.on },
   { value: "off", words: words.common.off },
 ] as const;
 
-/** Which output, and what it becomes. */
+/** Which output, what it becomes, and whether it goes back by itself. */
 export function SetFields({ program, step }: { program: Program; step: SetStep }) {
+  const set = (next: (before: SetStep) => SetStep, done = true): boolean =>
+    changeStep(
+      step.id,
+      words.undo.signal,
+      before => (before.type === "set" ? next(before) : before),
+      done ? undefined : `set ${step.id}`,
+    );
+  const { to, pulse_s } = step;
   return (
     <>
       <SignalChoice
         program={program}
-        kind="-out"
+        end="-out"
         signal={step.signal}
-        onChange={signal =>
-          changeStep(step.id, words.undo.signal, before => (before.type === "set" ? { ...before, signal } : before))
+        onChange={(signal, line) =>
+          set(({ pulse_s: pulse, ...before }) => {
+            const level = line.kind.startsWith("analogue");
+            if (level) return { ...before, signal, to: typeof before.to === "number" ? before.to : 0 };
+            const digital = { ...before, signal, to: typeof before.to === "boolean" ? before.to : true };
+            return pulse === undefined ? digital : { ...digital, pulse_s: pulse };
+          })
         }
       />
-      {typeof step.to === "boolean" && (
-        <div className="pair">
-          <span className="label">{words.step.to}</span>
-          <Segments
+      {typeof to === "number" ? (
+        <Pair label={words.step.to}>
+          <NumberField
             label={words.step.to}
-            value={step.to ? "on" : "off"}
-            options={ON_OFF}
-            onChange={to =>
-              changeStep(step.id, words.undo.signal, before =>
-                before.type === "set" ? { ...before, to: to === "on" } : before,
-              )
-            }
+            quantity="plain"
+            value={to}
+            onChange={(level, done) => set(before => ({ ...before, to: level }), done)}
           />
-        </div>
+        </Pair>
+      ) : (
+        <>
+          <Pair label={words.step.to}>
+            <Segments
+              label={words.step.to}
+              value={to ? "on" : "off"}
+              options={ON_OFF}
+              onChange={level => set(before => ({ ...before, to: level === "on" }))}
+            />
+          </Pair>
+          <Pair label={words.editor.pulse}>
+            <Segments
+              label={words.editor.pulse}
+              value={pulse_s === undefined ? "no" : "yes"}
+              options={[
+                { value: "no", words: words.editor.pulses.no },
+                { value: "yes", words: words.editor.pulses.yes },
+              ]}
+              onChange={value =>
+                set(({ pulse_s: _before, ...rest }) => (value === "no" ? rest : { ...rest, pulse_s: 0.5 }))
+              }
+            />
+          </Pair>
+          {pulse_s !== undefined && (
+            <Pair label={words.editor.pulseTime}>
+              <NumberField
+                label={words.editor.pulseTime}
+                quantity="time"
+                value={pulse_s}
+                min={0.001}
+                max={3600}
+                onChange={(s, done) => set(before => ({ ...before, pulse_s: s }), done)}
+              />
+            </Pair>
+          )}
+        </>
       )}
     </>
   );
 }
 
-/** Which line, and what it must be. */
+/** Which line, and what it must be; or what is computed. */
 export function WaitForFields({ program, step }: { program: Program; step: WaitForStep }) {
   const { when } = step;
-  if ("expression" in when)
-    return (
-      <>
-        <ConditionField program={program} step={step} />
-        <LimitFields step={step} />
-      </>
-    );
   return (
     <>
-      <SignalChoice
-        program={program}
-        kind=""
-        signal={when.signal}
-        onChange={signal =>
-          changeStep(step.id, words.undo.signal, before =>
-            before.type === "wait-for" ? { ...before, when: { ...when, signal } } : before,
-          )
-        }
-      />
-      {"is" in when && (
-        <div className="pair">
-          <span className="label">{words.step.until}</span>
-          <Segments
-            label={words.step.until}
-            value={when.is ? "on" : "off"}
-            options={ON_OFF}
-            onChange={is =>
-              changeStep(step.id, words.undo.signal, before =>
-                before.type === "wait-for" ? { ...before, when: { signal: when.signal, is: is === "on" } } : before,
-              )
-            }
-          />
-        </div>
+      {!("expression" in when) && (
+        <LineCondition
+          program={program}
+          when={when}
+          label={words.step.until}
+          onChange={(next, done) =>
+            changeStep(
+              step.id,
+              words.undo.signal,
+              before => (before.type === "wait-for" ? { ...before, when: next } : before),
+              done ? undefined : `wait for ${step.id}`,
+            )
+          }
+        />
       )}
       <ConditionField program={program} step={step} />
       <LimitFields step={step} />
     </>
-  );
-}
-
-function SignalChoice({
-  program,
-  kind,
-  signal,
-  onChange,
-}: {
-  program: Program;
-  kind: string;
-  signal: string;
-  onChange: (signal: string) => void;
-}) {
-  const names = Object.entries(program.signals)
-    .filter(([, line]) => line.kind.endsWith(kind))
-    .map(([name]) => name);
-  return (
-    <div className="pair">
-      <span className="label">{words.step.signal}</span>
-      <span className="field">
-        <select aria-label={words.step.signal} value={signal} onChange={event => onChange(event.currentTarget.value)}>
-          {[...new Set([signal, ...names])].map(name => (
-            <option key={name}>{name}</option>
-          ))}
-        </select>
-      </span>
-    </div>
   );
 }
 

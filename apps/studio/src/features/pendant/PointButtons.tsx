@@ -1,4 +1,4 @@
-import { ChevronLeft, ChevronRight, CircleDot, Home, LocateFixed, Spline } from "lucide-react";
+import { ChevronLeft, ChevronRight, CircleDot, Home, LocateFixed, MapPinPlus, Rainbow, Spline } from "lucide-react";
 import { useStore } from "zustand";
 import { commandStore, runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
@@ -33,6 +33,21 @@ export function PointButtons() {
           <button className="btn" onClick={() => runCommand("program.record-lin")}>
             <CircleDot />
             {words.jog.recordLin}
+          </button>
+        </Tip>
+      </div>
+      <div className="point-row">
+        <span className="point-label" />
+        <Tip words={words.jog.recordCircTip}>
+          <button className="btn" onClick={() => runCommand("program.record-circ")}>
+            <Rainbow />
+            {words.step.path.circ}
+          </button>
+        </Tip>
+        <Tip words={words.poses.addTip} keys="Shift+K">
+          <button className="btn" onClick={() => runCommand("program.keep-pose")}>
+            <MapPinPlus />
+            {words.jog.keepPose}
           </button>
         </Tip>
       </div>

@@ -13,11 +13,14 @@ import { Segments } from "../../ui/Choice.tsx";
 import { say, words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
 import { plotData } from "./plotData.ts";
+import { speedPlot } from "./speedPlot.ts";
 import { torquePlot } from "./torquePlot.ts";
 
-type What = "angles" | "speeds" | "torques";
+type What = "angles" | "speeds" | "tcp" | "torques";
 const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3", "#a3b53a"];
 const HEIGHT = 124;
+/** Room of the numbers at the left: the time line begins as far in, so that blocks and curves stand over each other. */
+const AXIS_PX = 46;
 
 /** Joint angles, speeds or torques over the whole plan; a click looks at that moment. */
 export default function Plots({ plan }: { plan: Plan }) {
@@ -33,34 +36,57 @@ export default function Plots({ plan }: { plan: Plan }) {
       ? torquePlot(plan, robot, program, document.robot.worldFromBase, torqueProfile)
       : null;
   }, [plan, what]);
+  const speeds = useMemo(() => {
+    const { document } = cellStore.getState();
+    const robot = robotOf(document);
+    const program = programOf(document);
+    return what === "tcp" && document && robot && program
+      ? speedPlot(plan, robot, program, document.robot.worldFromBase)
+      : undefined;
+  }, [plan, what]);
   useEffect(() => {
     const element = host.current;
     if (!element) return undefined;
     const style = getComputedStyle(element);
     const colour = (name: string): string => style.getPropertyValue(name);
-    const unit = what === "torques" ? words.time.percent : what === "angles" ? words.time.deg : words.time.degS;
-    const data =
-      what !== "torques"
-        ? plotData(plan, joints, what, samplePlan)
-        : torques?.kind === "known"
-          ? torques.data
-          : undefined;
+    const unit = { angles: words.time.deg, speeds: words.time.degS, tcp: words.time.mmS, torques: words.time.percent }[
+      what
+    ];
+    const data: uPlot.AlignedData | undefined =
+      what === "tcp"
+        ? speeds
+        : what !== "torques"
+          ? plotData(plan, joints, what, samplePlan)
+          : torques?.kind === "known"
+            ? torques.data
+            : undefined;
     if (!data) return undefined;
-    const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${fixed(at, 1)}${unit}`);
-    const limits = Array.from({ length: data.length - 1 - joints }, () => ({
-      label: words.time.limit,
-      stroke: colour("--text-3"),
-      width: 1,
-      dash: [6, 4],
+    const value = (_plot: uPlot, at: number | null): string => (at === null ? "–" : `${fixed(at, 1)}${unit}`);
+    const curve = (label: string, stroke: string): uPlot.Series => ({
+      label,
+      stroke,
+      width: 1.4,
       points: { show: false },
       value,
-    }));
+    });
+    const dashed = (label: string): uPlot.Series => ({
+      ...curve(label, colour("--text-3")),
+      width: 1,
+      dash: [6, 4],
+    });
+    const curves =
+      what === "tcp"
+        ? [curve(words.time.tcpSpeed, COLOURS[0]!), dashed(words.time.programmed)]
+        : [
+            ...COLOURS.slice(0, joints).map((stroke, i) => curve(words.time.joint(i + 1), stroke)),
+            ...Array.from({ length: data.length - 1 - joints }, () => dashed(words.time.limit)),
+          ];
     const axis = {
       stroke: colour("--text-3"),
       grid: { stroke: colour("--line"), width: 1 },
       ticks: { stroke: colour("--line") },
       font: "11px Inter Variable",
-      size: 46,
+      size: AXIS_PX,
     };
     const plot = new uPlot(
       {
@@ -68,17 +94,14 @@ export default function Plots({ plan }: { plan: Plan }) {
         height: HEIGHT,
         legend: { show: true, live: true },
         cursor: { y: false, drag: { x: false, y: false } },
-        scales: { x: { time: false } },
+        padding: [8, 0, 0, 0],
+        scales: { x: { time: false, range: () => [0, plan.duration_s] } },
         series: [
-          { label: "s", value: (_plot, value) => (value === null ? "" : fixed(value, 2)) },
-          ...COLOURS.slice(0, joints).map((stroke, i) => ({
-            label: words.time.joint(i + 1),
-            stroke,
-            width: 1.4,
-            points: { show: false },
-            value,
-          })),
-          ...limits,
+          {
+            label: words.time.scrubber,
+            value: (_plot, at) => (at === null ? "" : `${fixed(at, 2)} ${words.time.seconds}`),
+          },
+          ...curves,
         ],
         axes: [{ ...axis, size: 24 }, axis],
       },
@@ -94,8 +117,16 @@ export default function Plots({ plan }: { plan: Plan }) {
     const line = document.createElement("div");
     line.className = "plot-head";
     plot.over.append(line);
+    let shown = -1;
     const stop = onFrame(() => {
-      line.style.left = `${plot.valToPos(playheadNow(), "x")}px`;
+      const at_s = playheadNow();
+      line.style.left = `${plot.valToPos(at_s, "x")}px`;
+      // Without a pointer in the plot the numbers are those at the playhead.
+      if ((plot.cursor.left ?? -1) >= 0) shown = -1;
+      else if (at_s !== shown) {
+        shown = at_s;
+        plot.setLegend({ idx: plot.valToIdx(at_s) }, false);
+      }
     });
     const sizes = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: HEIGHT }));
     sizes.observe(element);
@@ -104,7 +135,7 @@ export default function Plots({ plan }: { plan: Plan }) {
       sizes.disconnect();
       plot.destroy();
     };
-  }, [plan, joints, what, theme, torques]);
+  }, [plan, joints, what, theme, torques, speeds]);
   return (
     <div className="plots">
       <Segments<What>
@@ -115,6 +146,7 @@ export default function Plots({ plan }: { plan: Plan }) {
         options={[
           { value: "angles", words: words.time.angles },
           { value: "speeds", words: words.time.speeds },
+          { value: "tcp", words: words.time.tcpSpeed },
           { value: "torques", words: words.time.torques },
         ]}
       />

@@ -34,7 +34,7 @@ export function Timeline() {
     [program, plan, verdict, path],
   );
   return (
-    <div className="timeline">
+    <div className="timeline" data-plots={plots && plan && plan.duration_s > 0 ? true : undefined}>
       <Transport hasPlan={plan !== null && plan.duration_s > 0} />
       {plan && plan.duration_s > 0 ? (
         <Track blocks={blocks} duration_s={plan.duration_s} />

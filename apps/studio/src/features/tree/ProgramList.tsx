@@ -20,7 +20,7 @@ import { seekStep } from "../../stores/seek.ts";
 import { words } from "../../messages/index.ts";
 import { ProgramSwitch } from "./ProgramSwitch.tsx";
 import { ProgramRowView } from "./ProgramRowView.tsx";
-import { anchorOf, behind, idsOf, programRows, type ProgramRow } from "./rows.ts";
+import { anchorOf, behind, foundRows, idsOf, programRows, type ProgramRow } from "./rows.ts";
 
 const rowName = (row: ProgramRow): string => (row.kind === "step" ? stepWords(row.step, row.index) : row.name);
 
@@ -40,11 +40,17 @@ export function ProgramList() {
   const program = useStore(cellStore, state => programOf(state.document));
   const verdict = useStore(playStore, state => state.verdict);
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : null));
+  const routine = useStore(selectionStore, state => (state.selected?.kind === "routine" ? state.selected.name : null));
+  const [query, setQuery] = useState<string | null>(null);
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const [renaming, setRenaming] = useState<string | null>(null);
   const [said, setSaid] = useState("");
   const scroller = useRef<HTMLDivElement>(null);
-  const rows = useMemo(() => (program ? programRows(program, verdict, open) : []), [program, verdict, open]);
+  const isSearching = query !== null && query.trim() !== "";
+  const rows = useMemo(() => {
+    if (!program) return [];
+    return isSearching ? foundRows(program, verdict, query) : programRows(program, verdict, open);
+  }, [program, verdict, open, isSearching, query]);
   const sensors = useSensors(
     useSensor(MouseSensor, { activationConstraint: { distance: 5 } }),
     useSensor(TouchSensor, { activationConstraint: { delay: 250, tolerance: 6 } }),
@@ -61,10 +67,11 @@ export function ProgramList() {
     virtual.measure();
   }, [size, virtual]);
   const isOn = (row: ProgramRow): boolean =>
-    selected !== null &&
-    (row.kind === "step"
-      ? row.step.id === selected
-      : row.kind === "group" && !row.open && row.steps.some(step => step.id === selected));
+    (row.kind === "head" && row.routine !== undefined && row.routine === routine) ||
+    (selected !== null &&
+      (row.kind === "step"
+        ? row.step.id === selected
+        : row.kind === "group" && !row.open && row.steps.some(step => step.id === selected)));
   const current = rows.findIndex(isOn);
   useEffect(() => {
     if (current >= 0) virtual.scrollToIndex(current, { align: "auto" });
@@ -78,6 +85,10 @@ export function ProgramList() {
     setOpen(next);
   };
   const choose = (row: ProgramRow): void => {
+    if (row.kind === "head" && row.routine !== undefined) {
+      select({ kind: "routine", name: row.routine });
+      return;
+    }
     const [id] = idsOf(row);
     if (id === undefined) return;
     select({ kind: "step", id });
@@ -92,7 +103,7 @@ export function ProgramList() {
   };
   const shift = (index: number, by: 1 | -1): void => {
     const row = rows[index];
-    if (!row || !program) return;
+    if (!row || !program || isSearching) return;
     const ids = idsOf(row);
     // One line up or down; a closed group is one line, a block goes with what is inside it, and lines lead into blocks
     // and out of them.
@@ -139,7 +150,7 @@ export function ProgramList() {
     chosen();
   };
   const onDragEnd = ({ active, over }: DragEndEvent): void => {
-    if (!over || active.id === over.id) return;
+    if (!over || active.id === over.id || isSearching) return;
     const from = rows.findIndex(row => row.key === active.id);
     const to = rows.findIndex(row => row.key === over.id);
     const row = rows[from];
@@ -149,7 +160,35 @@ export function ProgramList() {
 
   return (
     <section className="program" aria-label={words.tree.program} id="program">
-      <ProgramSwitch />
+      <ProgramSwitch onSearch={() => setQuery(before => (before === null ? "" : null))} />
+      {query !== null && (
+        <div className="program-search" role="search">
+          <span className="field text">
+            <input
+              autoFocus
+              type="search"
+              aria-label={words.editor.search}
+              placeholder={words.editor.searchHint}
+              value={query}
+              maxLength={60}
+              onChange={event => setQuery(event.currentTarget.value)}
+              onKeyDown={event => {
+                if (event.key === "Escape") {
+                  event.stopPropagation();
+                  setQuery(null);
+                }
+                if (event.key === "Enter" || event.key === "ArrowDown") {
+                  event.preventDefault();
+                  focusRow(event.key === "Enter" ? (current + 1) % Math.max(1, rows.length) : 0);
+                }
+              }}
+            />
+          </span>
+          <span className="small dim" role="status">
+            {isSearching ? words.editor.found(rows.length) : ""}
+          </span>
+        </div>
+      )}
       {program && program.steps.length === 0 && <p className="empty">{words.tree.empty}</p>}
       <DndContext sensors={sensors} collisionDetection={closestCenter} onDragEnd={onDragEnd} accessibility={SPOKEN}>
         <SortableContext items={rows.map(row => row.key)} strategy={verticalListSortingStrategy}>

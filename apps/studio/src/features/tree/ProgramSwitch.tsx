@@ -1,5 +1,5 @@
 import { isTextProgram } from "@twincell/project";
-import { Check, ChevronDown } from "lucide-react";
+import { Check, ChevronDown, Search } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
 import { useState } from "react";
 import { useStore } from "zustand";
@@ -9,7 +9,7 @@ import { words } from "../../messages/index.ts";
 import { AddStep } from "./AddStep.tsx";
 
 /** Which of the cell's programs is worked on; a new one, a copy, another name, away with it. */
-export function ProgramSwitch() {
+export function ProgramSwitch({ onSearch }: { readonly onSearch?: () => void }) {
   const programs = useStore(cellStore, state => state.document?.programs);
   const name = useStore(cellStore, state => state.document?.program ?? "");
   const [renaming, setRenaming] = useState(false);
@@ -81,6 +81,11 @@ export function ProgramSwitch() {
         </DropdownMenu.Portal>
       </DropdownMenu.Root>
       <span className="grow" />
+      {onSearch && (
+        <button className="btn quiet icon tight" aria-label={words.editor.search} onClick={onSearch}>
+          <Search />
+        </button>
+      )}
       <AddStep />
     </h2>
   );

@@ -1,5 +1,15 @@
-import { listsOf, type ListPlace, type Program, type Step, type StepVerdict, type Verdict } from "@twincell/core";
+import {
+  everyStep,
+  listsOf,
+  withLists,
+  type ListPlace,
+  type Program,
+  type Step,
+  type StepVerdict,
+  type Verdict,
+} from "@twincell/core";
 import { worse } from "../../stores/play.ts";
+import { stepWords } from "../../stores/program.ts";
 import { words } from "../../messages/index.ts";
 
 interface Base {
@@ -19,8 +29,13 @@ export type ProgramRow =
       readonly first: number;
       readonly open: boolean;
     })
-  /** "Otherwise", or the name of a routine. `before`: the list that ends above it. */
-  | (Base & { readonly kind: "head"; readonly name: string; readonly before: ListPlace });
+  /** "Otherwise", or a routine. `before`: the list that ends above it. */
+  | (Base & {
+      readonly kind: "head";
+      readonly name: string;
+      readonly before: ListPlace;
+      readonly routine?: string;
+    });
 
 /**
  * Steps that follow one another in the same group are one line until it is opened; steps inside blocks stand below
@@ -80,18 +95,40 @@ export function programRows(
     }
   };
   list(program.steps, 0);
+  let previous: ListPlace = "main";
   for (const [name, steps] of Object.entries(program.routines)) {
     rows.push({
       kind: "head",
       key: `routine ${name}`,
       name: words.step.routine(name),
-      before: "main",
+      before: previous,
+      routine: name,
       depth: 0,
       verdict: steps.reduce<StepVerdict>((so, step) => worse(so, of(step)), "ok"),
     });
     list(steps, 1);
+    previous = { routine: name };
   }
   return rows;
+}
+/**
+ * Lines of the steps in which a text is found: in what they are called or say, in names of signals, variables, frames,
+ * tools, routines and pallets.
+ */
+export function foundRows(program: Program, verdict: Verdict | null, query: string): readonly ProgramRow[] {
+  const wanted = query.trim().toLowerCase();
+  const all = programRows(program, verdict, new Set(Array.from(everyStep(program), step => step.id)));
+  return all.filter(row => row.kind === "step" && textOfStep(program, row.step, row.index).includes(wanted));
+}
+function textOfStep(program: Program, step: Step, index: number): string {
+  const { id: _id, type: _type, group, ...own } = withLists(step, () => []);
+  const names: string[] = [stepWords(step, index), program.groups[group ?? ""]?.name ?? ""];
+  const collect = (value: unknown): void => {
+    if (typeof value === "string") names.push(value);
+    else if (typeof value === "object" && value !== null) Object.values(value).forEach(collect);
+  };
+  collect(own);
+  return names.join("\n").toLowerCase();
 }
 /** The step and all that are inside it. */
 const sizeOf = (step: Step): number =>

@@ -4,6 +4,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
@@ -25,6 +26,7 @@ export const catalogue: Translation<typeof en> = {
   ...controlWords,
   ...recordsWords,
   direct,
+  editor,
   people: peopleWords,
   headset,
   offline,

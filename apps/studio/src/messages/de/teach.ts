@@ -198,6 +198,8 @@ export const teachWords = {
     record: "Aufnehmen",
     recordPtp: "PTP",
     recordLin: "LIN",
+    recordCircTip: "Nimmt einen Bogen auf: das erste Drücken den Punkt auf dem Weg, das zweite das Ende",
+    keepPose: "Pose",
     recordTip: "Nimmt auf, wo der Roboter steht",
     touchUp: "Nachteachen",
     touchUpTip: "Der gewählte Punkt wird dorthin gelegt, wo der Roboter steht",

@@ -2,6 +2,7 @@ import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
+import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { headset } from "./headset.ts";
 import { offline } from "./offline.ts";
@@ -22,6 +23,7 @@ export const en = {
   ...controlWords,
   ...recordsWords,
   direct,
+  editor,
   people: peopleWords,
   headset,
   offline,

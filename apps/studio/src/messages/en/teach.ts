@@ -192,6 +192,8 @@ export const teachWords = {
     record: "Record",
     recordPtp: "PTP",
     recordLin: "LIN",
+    recordCircTip: "Records an arc: the first press keeps the point it passes, the second the end",
+    keepPose: "Pose",
     recordTip: "Records where the robot stands",
     touchUp: "Touch up",
     touchUpTip: "The selected point becomes where the robot stands",

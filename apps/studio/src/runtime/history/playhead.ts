@@ -19,6 +19,10 @@ let told_ms = 0;
 let q = new Float64Array(6);
 
 export const playheadNow = (): number => t_s;
+/** What `showJoints` counted when the playhead moved the robot last: a higher count is somebody else's. */
+let shown = -1;
+/** The moment of the program that the robot on screen stands in; null once somebody else has moved it. */
+export const shownMoment = (): number | null => (reel !== null && theLive().revision === shown ? t_s : null);
 
 /** What is played from now on; null when there is nothing. The moment is kept where it still exists. */
 export function loadReel(next: Reel | null): void {
@@ -31,6 +35,7 @@ function show(now_ms: number, always: boolean): void {
   if (q.length !== theLive().q_rad.length) q = new Float64Array(theLive().q_rad.length);
   reel.sampleAt(t_s, q);
   showJoints(q);
+  shown = theLive().revision;
   if (always || now_ms - told_ms >= TELL_EVERY_MS) {
     told_ms = now_ms;
     playStore.setState({ t_s });

@@ -75,12 +75,13 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
           plan: null,
           verdict: null,
           path: [],
+          carried: [],
         });
         return;
       case "checked": {
         busy = false;
-        const { plan, verdict, path } = message;
-        playStore.setState({ checking: null, stale: due, trouble: null, plan, verdict, path });
+        const { plan, verdict, path, carried } = message;
+        playStore.setState({ checking: null, stale: due, trouble: null, plan, verdict, path, carried });
         loadReel(
           plan.segments.length > 0
             ? {
@@ -106,14 +107,30 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       // A text that is not understood, or not executed yet, does nothing.
       if (busy) fire();
       loadReel(null);
-      playStore.setState({ checking: null, stale: false, trouble: null, plan: null, verdict: null, path: [] });
+      playStore.setState({
+        checking: null,
+        stale: false,
+        trouble: null,
+        plan: null,
+        verdict: null,
+        path: [],
+        carried: [],
+      });
       return;
     }
     if (busy) fire();
     id++;
     if (program.steps.length === 0) {
       loadReel(null);
-      playStore.setState({ checking: null, stale: false, trouble: null, plan: null, verdict: null, path: [] });
+      playStore.setState({
+        checking: null,
+        stale: false,
+        trouble: null,
+        plan: null,
+        verdict: null,
+        path: [],
+        carried: [],
+      });
       return;
     }
     if (!checker) {
@@ -155,7 +172,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     // A plan of another robot has other joints.
     if (document?.robot.id !== judged?.robot.id) {
       loadReel(null);
-      playStore.setState({ plan: null, verdict: null, path: [] });
+      playStore.setState({ plan: null, verdict: null, path: [], carried: [] });
     }
     const matters = !document || !judged || programOf(document) !== programOf(judged) || solidsDiffer(document, judged);
     judged = document;

@@ -1,4 +1,4 @@
-import { identity } from "@twincell/core";
+import { compose, identity } from "@twincell/core";
 import type { ObjectRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
@@ -13,7 +13,12 @@ import {
   Vector3,
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { carriedPose } from "../../runtime/history/carried.ts";
+import { shownMoment } from "../../runtime/history/playhead.ts";
+import { theLive } from "../../runtime/live.ts";
 import { partOffset, physicsNow } from "../../runtime/physics/physics.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { playStore } from "../../stores/play.ts";
 import { GraspMark } from "../physical/grasp-mark.tsx";
 import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";
@@ -26,6 +31,41 @@ import type { SceneTheme } from "../theme.ts";
 
 /** Where a part is now; read and written within one frame. */
 const place = identity();
+const inHand = identity<"world", "object">();
+const worldFromFlange = identity<"world", "flange">();
+
+/** Which picture of the robot a part was placed for, and whether it is away from where the cell has it. */
+interface Carriage {
+  revision: number;
+  carried: object | null;
+  away: boolean;
+}
+/** Puts a part where the program has it at the moment shown. False when it is where the cell has it. */
+function carry(object: ObjectRecord, group: Group, carriage: Carriage): boolean {
+  const { revision, baseFromFlange } = theLive();
+  const { carried } = playStore.getState();
+  if (carried.length === 0 && !carriage.away) return false;
+  if (carriage.revision === revision && carriage.carried === carried) return carriage.away;
+  carriage.revision = revision;
+  carriage.carried = carried;
+  const moment = shownMoment();
+  const { document } = cellStore.getState();
+  const at =
+    moment === null || document === null
+      ? undefined
+      : carriedPose(
+          carried,
+          object.id,
+          moment,
+          compose(document.robot.worldFromBase, baseFromFlange, worldFromFlange),
+          inHand,
+        );
+  if (at === undefined && !carriage.away) return false;
+  carriage.away = at !== undefined;
+  poseMatrix(at ?? object.worldFromObject, group.matrix);
+  group.matrixWorldNeedsUpdate = true;
+  return true;
+}
 
 /** One thing in the cell: furniture, work piece or wall. */
 export function ObjectView({
@@ -49,14 +89,23 @@ export function ObjectView({
     [geometry, edges],
   );
   const moved = useRef<object | null>(null);
+  const carriage = useRef<Carriage>({ revision: -1, carried: null, away: false });
   useEffect(() => {
     if (!group.current) return;
     poseMatrix(object.worldFromObject, group.current.matrix);
     group.current.matrixWorldNeedsUpdate = true;
+    carriage.current.carried = null;
   }, [object.worldFromObject]);
-  // While a program is played with contact, parts are where physics has them.
+  // While a program is played with contact, parts are where physics has them; without, where the gripper takes them.
   useFrame(() => {
     const frame = physicsNow();
+    if (
+      frame === null &&
+      object.role === "workpiece" &&
+      group.current &&
+      carry(object, group.current, carriage.current)
+    )
+      return;
     if (frame === moved.current || !group.current || object.role !== "workpiece") return;
     moved.current = frame;
     const at = frame === null ? -1 : partOffset(object.id);

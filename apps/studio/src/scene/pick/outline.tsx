@@ -79,6 +79,7 @@ function same(thing: Thing | undefined, wanted: Thing | null): boolean {
     case "object":
       return thing.kind === "object" && thing.id === wanted.id;
     case "frame":
+    case "routine":
     case "step":
       return false;
   }

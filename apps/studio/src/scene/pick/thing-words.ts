@@ -30,6 +30,7 @@ function nameOf(thing: Thing, document: CellDocument): string {
     case "object":
       return document.objects.find(object => object.id === thing.id)?.name ?? thing.id;
     case "frame":
+    case "routine":
       return thing.name;
     case "step":
       return thing.id;

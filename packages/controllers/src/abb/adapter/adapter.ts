@@ -1,9 +1,20 @@
-import type { CommandOutcome, EmittedFile, UploadedProgram, JointSample, Refusal, SafetyState } from "@twincell/core";
+import type { Network } from "../../transport/index.ts";
+import type { EgmRobot } from "../codec/egm.ts";
+import type {
+  CommandOutcome,
+  EmittedFile,
+  UploadedProgram,
+  JointSample,
+  Refusal,
+  SafetyState,
+  Robot,
+  Scheduler,
+} from "@twincell/core";
 import { DONE, refused } from "../../outcomes.ts";
 import { pathText, type Login } from "../../http/index.ts";
 import type { ControllerAdapter, AdapterEvents, Opened } from "../../driver/index.ts";
 import { COMM_TIMEOUT_S, EGM_STATE, isAbbModel, MOTORS, RWS_LOGIN, RWS_PORT } from "../codec/index.ts";
-import { createSetpointStream, type SetpointStreamOptions } from "./guide.ts";
+import { createSetpointStream, type SetpointStreamOptions, type SetpointStream } from "./guide.ts";
 import { RwsClient, RwsSession, type RwsReply } from "./rws-client.ts";
 import { PanelState } from "./rws-state.ts";
 import { bringUp } from "./bring-up.ts";
@@ -66,360 +77,430 @@ const JOINTS = "/rw/motionsystem/mechunits/ROB_1/jointtarget";
  * lost in the middle of a motion the robot is stopped over the other one, and both are opened anew.
  */
 export function abbAdapter(options: AbbAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, host } = options;
-  const n = robot.arm.joints.length;
-  const port = options.ports?.rws ?? RWS_PORT;
-  const stale_s = options.stale_s ?? STALE_S;
-  const gripper = options.gripperSignal ?? "doGripper";
-  const guide = createSetpointStream(options);
-  const { message } = guide;
-  const clock = new SampleClock(() => scheduler.now_s());
-  const before_rad = new Float64Array(n);
-  const left = new Set<string>();
-  // One session for as long as this driver lives: a controller has seventy, and what it holds is given back in it.
-  const session = new RwsSession(options.login ?? RWS_LOGIN);
-  let panel = new PanelState(robot);
-  let events: AdapterEvents | null = null;
-  let life = 0;
-  let polling = false;
-  let turn = 0;
-  let hasLines = true;
-  let axes = 0;
-  let poll: RwsClient | null = null;
-  let act: RwsClient | null = null;
-  let brake: RwsClient | null = null;
-  let timers: readonly (() => void)[] = [];
-  let broken: { readonly why: Refusal; readonly since_s: number } | null = null;
-  let severed = false;
-  let rising = false;
-  let text: TextRun | null = null;
-  let complaint = "";
-  const sample: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad: new Float64Array(n),
-    moving: false,
-    mode: "manual",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    message: "",
-    signals: panel.lines,
-  };
+  return abbAdapterOf(new AbbWire(options));
+}
 
-  const guides = (): boolean => scheduler.now_s() - guide.heard_s <= stale_s;
+class AbbWire {
+  readonly options: AbbAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly n: number;
+  readonly port: number;
+  readonly stale_s: number;
+  readonly gripper: string;
+  readonly guide: SetpointStream;
+  readonly message: EgmRobot;
+  readonly clock: SampleClock;
+  readonly before_rad: Float64Array;
+  readonly left = new Set<string>();
+  // One session for as long as this driver lives: a controller has seventy, and what it holds is given back in it.
+  readonly session: RwsSession;
+  panel: PanelState;
+  events: AdapterEvents | null = null;
+  life = 0;
+  polling = false;
+  turn = 0;
+  hasLines = true;
+  axes = 0;
+  poll: RwsClient | null = null;
+  act: RwsClient | null = null;
+  brake: RwsClient | null = null;
+  timers: readonly (() => void)[] = [];
+  broken: { readonly why: Refusal; readonly since_s: number } | null = null;
+  severed = false;
+  rising = false;
+  text: TextRun | null = null;
+  complaint = "";
+  readonly sample: Lent;
+
+  constructor(options: AbbAdapterOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.n = this.robot.arm.joints.length;
+    this.port = this.options.ports?.rws ?? RWS_PORT;
+    this.stale_s = this.options.stale_s ?? STALE_S;
+    this.gripper = this.options.gripperSignal ?? "doGripper";
+    this.guide = createSetpointStream(this.options);
+    this.message = this.guide.message;
+    this.clock = new SampleClock(() => this.scheduler.now_s());
+    this.before_rad = new Float64Array(this.n);
+    this.session = new RwsSession(this.options.login ?? RWS_LOGIN);
+    this.panel = new PanelState(this.robot);
+    this.sample = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: new Float64Array(this.n),
+      moving: false,
+      mode: "manual",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      message: "",
+      signals: this.panel.lines,
+    };
+  }
+
+  guides(): boolean {
+    return this.scheduler.now_s() - this.guide.heard_s <= this.stale_s;
+  }
+
   /** Sooner than EGM counts as silent its place is taken by answers, so that nobody misses a state. */
-  const isFresh = (): boolean => scheduler.now_s() - guide.heard_s <= Math.min(stale_s, FILL_S);
-  const isGuided = (): boolean => guides() && say.notStreamedBecause(message) === "";
-  function safetyOf(): SafetyState {
-    if (severed || rising) return "emergency-stop";
-    if (panel.safety !== "normal" || panel.mode === "manual" || !guides()) return panel.safety;
-    return message.motors === MOTORS.off
+  isFresh(): boolean {
+    return this.scheduler.now_s() - this.guide.heard_s <= Math.min(this.stale_s, FILL_S);
+  }
+
+  readonly isGuided = (): boolean => this.guides() && say.notStreamedBecause(this.message) === "";
+
+  safetyOf(): SafetyState {
+    if (this.severed || this.rising) return "emergency-stop";
+    if (this.panel.safety !== "normal" || this.panel.mode === "manual" || !this.guides()) return this.panel.safety;
+    return this.message.motors === MOTORS.off
       ? "emergency-stop"
-      : message.state === EGM_STATE.error
+      : this.message.state === EGM_STATE.error
         ? "protective-stop"
         : "normal";
   }
-  function tell(q_rad: Float64Array, moving: boolean): void {
-    const isByEgm = guides();
-    const because = say.notStreamedBecause(message);
-    sample.q_rad.set(q_rad);
-    sample.sequence = clock.sequence;
-    sample.time_s = clock.time_s;
-    sample.moving = moving;
-    sample.mode = panel.mode;
-    sample.safety = safetyOf();
-    sample.override = isByEgm && !text ? guide.override : panel.speedRatio / 100;
-    sample.gripperClosed = panel.lines.get(gripper) === true;
-    sample.message =
-      panel.words !== ""
-        ? panel.words
-        : complaint !== ""
-          ? complaint
-          : panel.mode === "manual" || text
+
+  tell(q_rad: Float64Array, moving: boolean): void {
+    const isByEgm = this.guides();
+    const because = say.notStreamedBecause(this.message);
+    this.sample.q_rad.set(q_rad);
+    this.sample.sequence = this.clock.sequence;
+    this.sample.time_s = this.clock.time_s;
+    this.sample.moving = moving;
+    this.sample.mode = this.panel.mode;
+    this.sample.safety = this.safetyOf();
+    this.sample.override = isByEgm && !this.text ? this.guide.override : this.panel.speedRatio / 100;
+    this.sample.gripperClosed = this.panel.lines.get(this.gripper) === true;
+    this.sample.message =
+      this.panel.words !== ""
+        ? this.panel.words
+        : this.complaint !== ""
+          ? this.complaint
+          : this.panel.mode === "manual" || this.text
             ? ""
             : isByEgm
               ? because
               : "EGM is silent: no program there waits for targets.";
-    events?.sample(sample);
+    this.events?.sample(this.sample);
   }
 
   /** The line is gone: the robot comes to rest first where it can still be told. */
-  function breakBy(why: Refusal): void {
-    if (broken || !events) return;
-    broken = { why, since_s: scheduler.now_s() };
-    if (guide.isGoing) guide.stop(false, why);
-    else lose();
-  }
-  function lose(): void {
-    const told = events;
-    const { why } = broken!;
-    close(why);
-    told?.lost(why.sentence);
-  }
-  function watch(): void {
-    const now_s = scheduler.now_s();
-    if (broken) {
-      if (!guide.isGoing || !guides() || now_s - broken.since_s > BRAKES_S) lose();
-      return;
-    }
-    if (!guide.isGoing || guides()) return;
-    broken = { why: say.guidingLost(robot, now_s - guide.heard_s), since_s: now_s };
-    lose();
-  }
-  function close(why: Refusal = say.linkClosed(robot)): void {
-    life++;
-    // Nobody will be there to end what is under way.
-    if (brake && (guide.isGoing || text)) void stopProgram(brake, true);
-    for (const stop of timers) stop();
-    timers = [];
-    for (const client of [poll, act, brake]) client?.close();
-    poll = act = brake = events = null;
-    polling = rising = false;
-    broken = null;
-    guide.close(why);
+  breakBy(why: Refusal): void {
+    if (this.broken || !this.events) return;
+    this.broken = { why, since_s: this.scheduler.now_s() };
+    if (this.guide.isGoing) this.guide.stop(false, why);
+    else this.lose();
   }
 
-  async function round(client: RwsClient, mine: number): Promise<void> {
-    const resource = TURNS[turn++ % TURNS.length]!;
-    if (resource !== "lines" || hasLines) {
+  lose(): void {
+    const told = this.events;
+    const { why } = this.broken!;
+    this.close(why);
+    told?.lost(why.sentence);
+  }
+
+  readonly watch = (): void => {
+    const now_s = this.scheduler.now_s();
+    if (this.broken) {
+      if (!this.guide.isGoing || !this.guides() || now_s - this.broken.since_s > BRAKES_S) this.lose();
+      return;
+    }
+    if (!this.guide.isGoing || this.guides()) return;
+    this.broken = { why: say.guidingLost(this.robot, now_s - this.guide.heard_s), since_s: now_s };
+    this.lose();
+  };
+
+  close(why: Refusal = say.linkClosed(this.robot)): void {
+    this.life++;
+    // Nobody will be there to end what is under way.
+    if (this.brake && (this.guide.isGoing || this.text)) void stopProgram(this.brake, true);
+    for (const stop of this.timers) stop();
+    this.timers = [];
+    for (const client of [this.poll, this.act, this.brake]) client?.close();
+    this.poll = this.act = this.brake = this.events = null;
+    this.polling = this.rising = false;
+    this.broken = null;
+    this.guide.close(why);
+  }
+
+  async round(client: RwsClient, mine: number): Promise<void> {
+    const resource = TURNS[this.turn++ % TURNS.length]!;
+    if (resource !== "lines" || this.hasLines) {
       const reply = await client.get(resource === "lines" ? SIGNALS : PANEL[resource]);
-      if (mine !== life) return;
-      const flaw = take(resource, reply);
+      if (mine !== this.life) return;
+      const flaw = this.take(resource, reply);
       if (flaw !== null) {
-        breakBy(say.servicesLost(robot, flaw));
+        this.breakBy(say.servicesLost(this.robot, flaw));
         return;
       }
     }
-    if (isFresh()) return;
+    if (this.isFresh()) return;
     const reply = await client.get(JOINTS);
-    if (mine !== life || isFresh()) return;
-    before_rad.set(panel.q_rad);
-    if (reply.kind !== "answer" || panel.takeJoints(reply.states) !== n) {
-      breakBy(
-        say.servicesLost(robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence),
+    if (mine !== this.life || this.isFresh()) return;
+    this.before_rad.set(this.panel.q_rad);
+    if (reply.kind !== "answer" || this.panel.takeJoints(reply.states) !== this.n) {
+      this.breakBy(
+        say.servicesLost(this.robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence),
       );
       return;
     }
-    clock.ours();
-    tell(
-      panel.q_rad,
-      panel.q_rad.some((q, i) => Math.abs(q - before_rad[i]!) > STANDS_RAD),
+    this.clock.ours();
+    this.tell(
+      this.panel.q_rad,
+      this.panel.q_rad.some((q, i) => Math.abs(q - this.before_rad[i]!) > STANDS_RAD),
     );
   }
+
   /** Why the answer is none, or null. */
-  function take(resource: Resource, reply: RwsReply): string | null {
+  take(resource: Resource, reply: RwsReply): string | null {
     if (reply.kind !== "answer") return reply.sentence;
-    if (resource === "lines") panel.takeLines(reply.states);
-    else if (!panel.takePanel(resource, reply.states)) return `it does not tell its ${resource}.`;
+    if (resource === "lines") this.panel.takeLines(reply.states);
+    else if (!this.panel.takePanel(resource, reply.states)) return `it does not tell its ${resource}.`;
     return null;
   }
 
-  async function open(heard: AdapterEvents): Promise<Opened> {
-    close();
-    const mine = life;
+  readonly open = async (heard: AdapterEvents): Promise<Opened> => {
+    this.close();
+    const mine = this.life;
     const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === life) close();
+      if (mine === this.life) this.close();
       return { kind: "failed", why, again };
     };
     const client = (): RwsClient =>
       new RwsClient({
-        network,
-        scheduler,
-        session,
-        to: { host, port },
-        lost(sentence) {
-          breakBy(say.servicesLost(robot, sentence));
+        network: this.network,
+        scheduler: this.scheduler,
+        session: this.session,
+        to: { host: this.host, port: this.port },
+        lost: sentence => {
+          this.breakBy(say.servicesLost(this.robot, sentence));
         },
-        roundTrip(seconds) {
-          events?.roundTrip(seconds);
+        roundTrip: seconds => {
+          this.events?.roundTrip(seconds);
         },
       });
-    const own = (poll = client());
+    const own = (this.poll = client());
     const type = await own.get("/rw/system/robottype");
-    if (mine !== life) return fail(say.linkClosed(robot), true);
+    if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
     if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404))
-      return fail(say.noServices(host, port, type.sentence), type.kind === "lost" || type.status === 503);
+      return fail(say.noServices(this.host, this.port, type.sentence), type.kind === "lost" || type.status === 503);
     const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
-    if (model !== undefined && !isAbbModel(options.model ?? robot.vendorSection?.model ?? robot.name, model))
-      return fail(say.otherRobot(robot, model), false);
-    const now = (panel = new PanelState(robot));
-    sample.signals = now.lines;
+    if (
+      model !== undefined &&
+      !isAbbModel(this.options.model ?? this.robot.vendorSection?.model ?? this.robot.name, model)
+    )
+      return fail(say.otherRobot(this.robot, model), false);
+    const now = (this.panel = new PanelState(this.robot));
+    this.sample.signals = now.lines;
     for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
-      const flaw = take(resource, await own.get(PANEL[resource]));
-      if (flaw !== null) return fail(say.noServices(host, port, flaw), true);
+      const flaw = this.take(resource, await own.get(PANEL[resource]));
+      if (flaw !== null) return fail(say.noServices(this.host, this.port, flaw), true);
     }
     const joints = await own.get(JOINTS);
     const count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
     if (count === null)
       return fail(
-        say.noServices(host, port, joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence),
+        say.noServices(
+          this.host,
+          this.port,
+          joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence,
+        ),
         true,
       );
-    if (count !== n) return fail(say.otherAxes(robot, count), false);
+    if (count !== this.n) return fail(say.otherAxes(this.robot, count), false);
     // Each of the other lines is there before it is needed.
-    act = client();
-    brake = client();
-    const lines = await act.get(SIGNALS);
-    await brake.get(PANEL.ctrlstate);
-    hasLines = take("lines", lines) === null;
-    if (mine !== life) return fail(say.linkClosed(robot), true);
-    axes = n;
-    const watched = options.isWatched?.() ?? false;
+    this.act = client();
+    this.brake = client();
+    const lines = await this.act.get(SIGNALS);
+    await this.brake.get(PANEL.ctrlstate);
+    this.hasLines = this.take("lines", lines) === null;
+    if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
+    this.axes = this.n;
+    const watched = this.options.isWatched?.() ?? false;
     const deaf = watched
       ? null
-      : await guide.open({
-          state(_, got) {
-            axes = got;
-            if (got !== n) {
-              breakBy(say.otherAxes(robot, got));
+      : await this.guide.open({
+          state: (_, got) => {
+            this.axes = got;
+            if (got !== this.n) {
+              this.breakBy(say.otherAxes(this.robot, got));
               return;
             }
-            clock.theirs(message.sequence, message.time_ms);
-            tell(guide.q_rad, guide.isMoving);
+            this.clock.theirs(this.message.sequence, this.message.time_ms);
+            this.tell(this.guide.q_rad, this.guide.isMoving);
           },
         });
     if (deaf) return fail(deaf, true);
     for (
-      const from_s = scheduler.now_s();
-      !watched && !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;
+      const from_s = this.scheduler.now_s();
+      !watched &&
+      !this.guides() &&
+      this.axes === this.n &&
+      mine === this.life &&
+      this.scheduler.now_s() - from_s < GUIDES_S;
     )
-      await pause(WATCH_S);
-    if (mine !== life) return fail(say.linkClosed(robot), true);
-    if (axes !== n) return fail(say.otherAxes(robot, axes), false);
-    severed = false;
-    complaint = "";
-    events = heard;
-    timers = [
-      scheduler.every(WATCH_S, watch),
-      scheduler.every(options.period_s ?? PERIOD_S, () => {
-        if (polling) return;
-        polling = true;
-        void round(own, mine).then(() => {
-          if (mine === life) polling = false;
+      await this.pause(WATCH_S);
+    if (mine !== this.life) return fail(say.linkClosed(this.robot), true);
+    if (this.axes !== this.n) return fail(say.otherAxes(this.robot, this.axes), false);
+    this.severed = false;
+    this.complaint = "";
+    this.events = heard;
+    this.timers = [
+      this.scheduler.every(WATCH_S, this.watch),
+      this.scheduler.every(this.options.period_s ?? PERIOD_S, () => {
+        if (this.polling) return;
+        this.polling = true;
+        void this.round(own, mine).then(() => {
+          if (mine === this.life) this.polling = false;
         });
       }),
     ];
     return { kind: "open" };
-  }
-  const pause = (seconds: number): Promise<void> =>
-    new Promise(resolve => {
-      const stop = scheduler.every(seconds, () => {
+  };
+
+  pause(seconds: number): Promise<void> {
+    return new Promise(resolve => {
+      const stop = this.scheduler.every(seconds, () => {
         stop();
         resolve();
       });
     });
+  }
 
   /** Orders that nobody waits for: what the controller says against them is told with the states. */
-  function order(answered: Promise<RwsReply>, what: string): void {
+  order(answered: Promise<RwsReply>, what: string): void {
     void answered.then(reply => {
-      complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : "";
+      this.complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : "";
     });
   }
-  const cannotWrite = (signal: string): Refusal | null => (panel.places.has(signal) ? null : say.noSuchLine(signal));
-  function setSignal(signal: string, value: boolean | number): Refusal | null {
-    if (!act) return say.linkClosed(robot);
-    const why = cannotWrite(signal);
+
+  cannotWrite(signal: string): Refusal | null {
+    return this.panel.places.has(signal) ? null : say.noSuchLine(signal);
+  }
+
+  readonly setSignal = (signal: string, value: boolean | number): Refusal | null => {
+    if (!this.act) return say.linkClosed(this.robot);
+    const why = this.cannotWrite(signal);
     if (why) return why;
-    const place = panel.places.get(signal)!;
-    order(
-      act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }),
+    const place = this.panel.places.get(signal)!;
+    this.order(
+      this.act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }),
       `Writing "${signal}"`,
     );
     return null;
-  }
-  async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
-    const mine = life;
-    const client = act;
-    if (!client) return { kind: "refused", why: say.linkClosed(robot) };
-    setSpeedRatio(client, guide.override);
-    const run = (text = handRapid(
+  };
+
+  readonly handText = async (files: readonly EmittedFile[]): Promise<UploadedProgram> => {
+    const mine = this.life;
+    const client = this.act;
+    if (!client) return { kind: "refused", why: say.linkClosed(this.robot) };
+    this.setSpeedRatio(client, this.guide.override);
+    const run = (this.text = handRapid(
       files,
       client,
-      panel,
-      scheduler,
-      robot,
-      left,
-      () => sample.moving,
+      this.panel,
+      this.scheduler,
+      this.robot,
+      this.left,
+      () => this.sample.moving,
       async well => {
-        if (text === run) text = null;
-        if (!well || mine !== life || severed || panel.ctrl !== "motoron") return;
+        if (this.text === run) this.text = null;
+        if (!well || mine !== this.life || this.severed || this.panel.ctrl !== "motoron") return;
         // It moves nothing by itself.
         await startProgram(client, "forever");
-        for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S; )
-          await pause(WATCH_S);
+        for (
+          const from_s = this.scheduler.now_s();
+          !this.isGuided() && mine === this.life && this.scheduler.now_s() - from_s < GUIDES_S;
+        )
+          await this.pause(WATCH_S);
       },
     ));
     const handed = await run.handed;
-    if (handed.kind === "refused" && text === run) text = null;
+    if (handed.kind === "refused" && this.text === run) this.text = null;
     return handed;
-  }
-  const setSpeedRatio = (client: RwsClient, ratio: number): void => {
-    order(
+  };
+
+  setSpeedRatio(client: RwsClient, ratio: number): void {
+    this.order(
       client.post(`${PANEL.speedratio}?action=setspeedratio`, { "speed-ratio": String(Math.round(100 * ratio)) }),
       "Setting the speed",
     );
-  };
+  }
+}
 
+function abbAdapterOf(wire: AbbWire): ControllerAdapter {
   return {
     brand: "ABB",
-    robot,
+    robot: wire.robot,
     watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
     // A robot that nobody moves from here may be heard of seldom; one that carries out our text may not (row X-41).
     get stale_s() {
-      return events && !guides() && !text ? Math.max(stale_s, PANEL_STALE_S) : stale_s;
+      return wire.events && !wire.guides() && !wire.text ? Math.max(wire.stale_s, PANEL_STALE_S) : wire.stale_s;
     },
-    open,
+    open: wire.open,
     close() {
-      close();
+      wire.close();
     },
     cannotSay: order =>
-      order.kind === "signal" ? cannotWrite(order.signal) : order.kind === "gripper" ? cannotWrite(gripper) : null,
+      order.kind === "signal"
+        ? wire.cannotWrite(order.signal)
+        : order.kind === "gripper"
+          ? wire.cannotWrite(wire.gripper)
+          : null,
     move(motion) {
-      if (!events) return Promise.resolve(refused(say.linkClosed(robot)));
-      return guides() ? guide.move(motion) : Promise.resolve(refused(say.notStreamed(robot, "EGM is silent.")));
+      if (!wire.events) return Promise.resolve(refused(say.linkClosed(wire.robot)));
+      return wire.guides()
+        ? wire.guide.move(motion)
+        : Promise.resolve(refused(say.notStreamed(wire.robot, "EGM is silent.")));
     },
     stop(emergency) {
-      severed ||= emergency;
-      if (emergency && brake) void brake.post(`${PANEL.ctrlstate}?action=setctrlstate`, { "ctrl-state": "motoroff" });
-      guide.stop(emergency);
-      text?.stop();
+      wire.severed ||= emergency;
+      if (emergency && wire.brake)
+        void wire.brake.post(`${PANEL.ctrlstate}?action=setctrlstate`, { "ctrl-state": "motoroff" });
+      wire.guide.stop(emergency);
+      wire.text?.stop();
     },
     setOverride(ratio) {
-      guide.setOverride(ratio);
-      if (act && (text || !guides())) setSpeedRatio(act, ratio);
+      wire.guide.setOverride(ratio);
+      if (wire.act && (wire.text || !wire.guides())) wire.setSpeedRatio(wire.act, ratio);
       return null;
     },
     async reset(wanted): Promise<CommandOutcome> {
-      if (!act) return refused(say.linkClosed(robot));
-      complaint = "";
-      guide.rearm();
-      const mine = life;
-      const up = panel.safety === "normal" && isGuided();
-      if (up && !severed) return DONE;
-      rising = severed || safetyOf() === "emergency-stop";
+      if (!wire.act) return refused(say.linkClosed(wire.robot));
+      wire.complaint = "";
+      wire.guide.rearm();
+      const mine = wire.life;
+      const up = wire.panel.safety === "normal" && wire.isGuided();
+      if (up && !wire.severed) return DONE;
+      wire.rising = wire.severed || wire.safetyOf() === "emergency-stop";
       const outcome = await bringUp({
-        client: act,
-        panel,
-        scheduler,
-        robot,
+        client: wire.act,
+        panel: wire.panel,
+        scheduler: wire.scheduler,
+        robot: wire.robot,
         ctrlstate: PANEL.ctrlstate,
         execution: PANEL.ctrlexecstate,
-        left,
-        isGuided,
+        left: wire.left,
+        isGuided: wire.isGuided,
         wanted,
       });
-      if (mine === life) {
-        rising = false;
-        if (outcome.kind === "done") severed = false;
+      if (mine === wire.life) {
+        wire.rising = false;
+        if (outcome.kind === "done") wire.severed = false;
       }
       return outcome;
     },
-    setSignal,
-    setGripper: closed => setSignal(gripper, closed),
-    handText,
+    setSignal: wire.setSignal,
+    setGripper: closed => wire.setSignal(wire.gripper, closed),
+    handText: wire.handText,
     async runText(files: readonly EmittedFile[]) {
-      const handed = await handText(files);
+      const handed = await wire.handText(files);
       return handed.kind === "refused" ? handed : handed.start();
     },
   };

@@ -1,7 +1,8 @@
-import type { JointSample, OperatingMode, SafetyState } from "@twincell/core";
+import type { EgmRobot } from "../codec/egm.ts";
+import type { JointSample, OperatingMode, SafetyState, Robot, Scheduler } from "@twincell/core";
 import type { ControllerAdapter, AdapterEvents, Opened } from "../../driver/index.ts";
 import { COMM_TIMEOUT_S, EGM_STATE, MOTORS } from "../codec/index.ts";
-import { createSetpointStream, type SetpointStreamOptions } from "./guide.ts";
+import { createSetpointStream, type SetpointStreamOptions, type SetpointStream } from "./guide.ts";
 import { linkClosed, noDrives, noLines, nobody, notStreamedBecause, otherAxes } from "./words.ts";
 
 export interface AbbEgmAdapterOptions extends SetpointStreamOptions {
@@ -19,111 +20,146 @@ const ANSWER_S = 0.1;
  * of it is switched from here.
  */
 export function abbEgmAdapter(options: AbbEgmAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, host } = options;
-  const n = robot.arm.joints.length;
-  const guide = createSetpointStream(options);
-  const { message, q_rad } = guide;
-  const sample: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad,
-    moving: false,
-    mode: "remote",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    message: "",
-  };
-  let events: AdapterEvents | null = null;
-  let severed = false;
-  let first: ((axes: number) => void) | null = null;
+  return abbEgmAdapterOf(new EgmWire(options));
+}
 
-  const modeOf = (): OperatingMode =>
-    message.motors === MOTORS.off || message.state === EGM_STATE.running || message.state === EGM_STATE.error
+class EgmWire {
+  readonly options: AbbEgmAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly host: string;
+  readonly n: number;
+  readonly guide: SetpointStream;
+  readonly message: EgmRobot;
+  readonly q_rad: Float64Array;
+  readonly sample: Lent;
+  events: AdapterEvents | null = null;
+  severed = false;
+  first: ((axes: number) => void) | null = null;
+
+  constructor(options: AbbEgmAdapterOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.host = this.options.host;
+    this.n = this.robot.arm.joints.length;
+    this.guide = createSetpointStream(this.options);
+    this.message = this.guide.message;
+    this.q_rad = this.guide.q_rad;
+    this.sample = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: this.q_rad,
+      moving: false,
+      mode: "remote",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      message: "",
+    };
+  }
+
+  modeOf(): OperatingMode {
+    return this.message.motors === MOTORS.off ||
+      this.message.state === EGM_STATE.running ||
+      this.message.state === EGM_STATE.error
       ? "remote"
       : "manual";
-  const safetyOf = (): SafetyState =>
-    severed || message.motors === MOTORS.off
+  }
+
+  safetyOf(): SafetyState {
+    return this.severed || this.message.motors === MOTORS.off
       ? "emergency-stop"
-      : message.state === EGM_STATE.error
+      : this.message.state === EGM_STATE.error
         ? "protective-stop"
         : "normal";
-
-  function close(): void {
-    events = null;
-    guide.close();
-    first?.(-1);
   }
+
+  readonly close = (): void => {
+    this.events = null;
+    this.guide.close();
+    this.first?.(-1);
+  };
+}
+
+function abbEgmAdapterOf(wire: EgmWire): ControllerAdapter {
   return {
     brand: "ABB",
-    robot,
-    stale_s: options.stale_s ?? STALE_S,
+    robot: wire.robot,
+    stale_s: wire.options.stale_s ?? STALE_S,
     watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
     async open(heard): Promise<Opened> {
-      close();
-      const why = await guide.open({
+      wire.close();
+      const why = await wire.guide.open({
         state(_, axes) {
-          if (first) {
-            first(axes);
+          if (wire.first) {
+            wire.first(axes);
             return;
           }
-          if (axes !== n) return;
-          sample.sequence = message.sequence;
-          sample.time_s = message.time_ms / 1000;
-          sample.moving = guide.isMoving;
-          sample.override = guide.override;
-          sample.mode = modeOf();
-          sample.safety = safetyOf();
-          sample.message = notStreamedBecause(message);
-          events?.sample(sample);
+          if (axes !== wire.n) return;
+          wire.sample.sequence = wire.message.sequence;
+          wire.sample.time_s = wire.message.time_ms / 1000;
+          wire.sample.moving = wire.guide.isMoving;
+          wire.sample.override = wire.guide.override;
+          wire.sample.mode = wire.modeOf();
+          wire.sample.safety = wire.safetyOf();
+          wire.sample.message = notStreamedBecause(wire.message);
+          wire.events?.sample(wire.sample);
         },
       });
       if (why) return { kind: "failed", why, again: true };
-      const from_s = scheduler.now_s();
+      const from_s = wire.scheduler.now_s();
       const axes = await new Promise<number>(resolve => {
-        const stop = scheduler.every(LOOK_S, () => {
-          if (scheduler.now_s() - from_s > OPEN_S) first?.(0);
+        const stop = wire.scheduler.every(LOOK_S, () => {
+          if (wire.scheduler.now_s() - from_s > OPEN_S) wire.first?.(0);
         });
-        first = got => {
+        wire.first = got => {
           stop();
-          first = null;
+          wire.first = null;
           resolve(got);
         };
       });
-      if (axes !== n) {
-        if (axes >= 0) guide.close();
+      if (axes !== wire.n) {
+        if (axes >= 0) wire.guide.close();
         return {
           kind: "failed",
-          why: axes > 0 ? otherAxes(robot, axes) : axes < 0 ? linkClosed(robot) : nobody(guide.port, host),
+          why:
+            axes > 0
+              ? otherAxes(wire.robot, axes)
+              : axes < 0
+                ? linkClosed(wire.robot)
+                : nobody(wire.guide.port, wire.host),
           again: axes <= 0,
         };
       }
-      severed = false;
-      events = heard;
+      wire.severed = false;
+      wire.events = heard;
       return { kind: "open" };
     },
-    close,
+    close: wire.close,
     cannotSay: order => (order.kind === "signal" || order.kind === "gripper" ? noLines() : null),
-    move: motion => guide.move(motion),
+    move: motion => wire.guide.move(motion),
     stop(emergency) {
-      severed ||= emergency;
-      guide.stop(emergency);
+      wire.severed ||= emergency;
+      wire.guide.stop(emergency);
     },
     setOverride(ratio) {
-      guide.setOverride(ratio);
+      wire.guide.setOverride(ratio);
       return null;
     },
     async reset() {
-      severed = false;
-      guide.rearm();
+      wire.severed = false;
+      wire.guide.rearm();
       // The controller's own answer: EGM runs again only when somebody started it there.
       await new Promise<void>(resolve => {
-        const stop = scheduler.every(ANSWER_S, () => {
+        const stop = wire.scheduler.every(ANSWER_S, () => {
           stop();
           resolve();
         });
       });
-      return notStreamedBecause(message) === "" ? { kind: "done" } : { kind: "refused", why: noDrives(robot) };
+      return notStreamedBecause(wire.message) === ""
+        ? { kind: "done" }
+        : { kind: "refused", why: noDrives(wire.robot) };
     },
     setSignal: () => noLines(),
     setGripper: () => noLines(),

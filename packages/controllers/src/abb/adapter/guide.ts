@@ -1,3 +1,4 @@
+import { DONE, stopped } from "../../outcomes.ts";
 import {
   axesOfJoints,
   jointsOfAxes,
@@ -6,8 +7,9 @@ import {
   type Refusal,
   type Robot,
   type Scheduler,
+  type AxisCounting,
 } from "@twincell/core";
-import { stepOfMotion, type AdapterMotion } from "../../driver/index.ts";
+import { Execution, stepOfMotion, type AdapterMotion } from "../../driver/index.ts";
 import type { Address, DatagramSocket, Network } from "../../transport/index.ts";
 import { EGM_PORT, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot, type EgmRobot } from "../codec/index.ts";
 import { linkClosed, notStreamed, notStreamedBecause, taken, wasStopped } from "./words.ts";
@@ -68,7 +70,6 @@ interface Going {
   readonly stepper: Stepper;
   readonly resolve: (outcome: CommandOutcome) => void;
   isSent: boolean;
-  stopping: Refusal | null;
 }
 
 /**
@@ -76,164 +77,196 @@ interface Going {
  * sends.
  */
 export function createSetpointStream(options: SetpointStreamOptions): SetpointStream {
-  const { robot, scheduler, network, host } = options;
-  const n = robot.arm.joints.length;
-  const port = options.ports?.egm ?? EGM_PORT;
-  const maxSpeed = options.maxSpeed ?? 1;
-  const message = noEgmRobot();
-  const answer = noEgmSensor();
-  const write = egmSensorWriter();
-  const q_rad = Float64Array.from(robot.home_rad);
-  const target_rad = q_rad.slice();
-  const next_rad = q_rad.slice();
-  const before_rad = q_rad.slice();
-  const before_deg = q_rad.slice();
-  const counting = abbAxes(robot);
-  let socket: DatagramSocket | null = null;
-  let events: SetpointStreamEvents | null = null;
-  let going: Going | null = null;
-  let override = 1;
-  let severed = false;
-  let told = 0;
-  let heard_s = -Infinity;
-  let fresh = true;
-  let moving = false;
-  answer.axes = n;
+  return setpointStreamOf(new Guide(options));
+}
 
-  const end = (outcome: CommandOutcome): void => {
-    const ended = going;
-    going = null;
-    ended?.resolve(outcome);
-  };
+class Guide extends Execution<Going> {
+  readonly options: SetpointStreamOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly n: number;
+  readonly port: number;
+  readonly maxSpeed: number;
+  readonly message = noEgmRobot();
+  readonly answer = noEgmSensor();
+  readonly write = egmSensorWriter();
+  readonly q_rad: Float64Array;
+  readonly target_rad: Float64Array;
+  readonly next_rad: Float64Array;
+  readonly before_rad: Float64Array;
+  readonly before_deg: Float64Array;
+  readonly counting: AxisCounting;
+  socket: DatagramSocket | null = null;
+  events: SetpointStreamEvents | null = null;
+  override = 1;
+  severed = false;
+  told = 0;
+  heard_s = -Infinity;
+  fresh = true;
+  isInMotion = false;
 
-  /** The next piece of the path, as long as the controller's own clock says. */
-  function advance(dt_s: number): void {
-    next_rad.set(target_rad);
-    if (going && !going.isSent) {
-      const state = going.stepper.advance(dt_s, override * maxSpeed, next_rad);
-      if (state.kind === "fault" && state.fault) {
-        end({ kind: "stopped", why: state.fault });
-        return;
-      }
-      if (state.kind !== "running") going.isSent = true;
-    }
-    axesOfJoints(counting, target_rad, before_deg);
-    axesOfJoints(counting, next_rad, answer.joints_deg);
-    for (let i = 0; i < n; i++) answer.speeds_deg_s[i] = dt_s > 0 ? (answer.joints_deg[i]! - before_deg[i]!) / dt_s : 0;
-    target_rad.set(next_rad);
+  constructor(options: SetpointStreamOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.n = this.robot.arm.joints.length;
+    this.port = this.options.ports?.egm ?? EGM_PORT;
+    this.maxSpeed = this.options.maxSpeed ?? 1;
+    this.q_rad = Float64Array.from(this.robot.home_rad);
+    this.target_rad = this.q_rad.slice();
+    this.next_rad = this.q_rad.slice();
+    this.before_rad = this.q_rad.slice();
+    this.before_deg = this.q_rad.slice();
+    this.counting = abbAxes(this.robot);
+    this.answer.axes = this.n;
   }
 
-  function take(from: Address, dt_s: number): void {
+  /** The next piece of the path, as long as the controller's own clock says. */
+  advance(dt_s: number): void {
+    this.next_rad.set(this.target_rad);
+    if (this.moving && !this.moving.isSent) {
+      const state = this.moving.stepper.advance(dt_s, this.override * this.maxSpeed, this.next_rad);
+      if (state.kind === "fault" && state.fault) {
+        this.settle({ kind: "stopped", why: state.fault });
+        return;
+      }
+      if (state.kind !== "running") this.moving.isSent = true;
+    }
+    axesOfJoints(this.counting, this.target_rad, this.before_deg);
+    axesOfJoints(this.counting, this.next_rad, this.answer.joints_deg);
+    for (let i = 0; i < this.n; i++)
+      this.answer.speeds_deg_s[i] = dt_s > 0 ? (this.answer.joints_deg[i]! - this.before_deg[i]!) / dt_s : 0;
+    this.target_rad.set(this.next_rad);
+  }
+
+  take(from: Address, dt_s: number): void {
     let fastest = 0;
     let gap_rad = 0;
-    before_rad.set(q_rad);
-    jointsOfAxes(counting, message.joints_deg, q_rad);
-    for (let i = 0; i < n; i++) {
-      const before = before_rad[i]!;
-      if (fresh) target_rad[i] = q_rad[i]!;
-      else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(q_rad[i]! - before) / dt_s);
-      gap_rad = Math.max(gap_rad, Math.abs(target_rad[i]! - q_rad[i]!));
+    this.before_rad.set(this.q_rad);
+    jointsOfAxes(this.counting, this.message.joints_deg, this.q_rad);
+    for (let i = 0; i < this.n; i++) {
+      const before = this.before_rad[i]!;
+      if (this.fresh) this.target_rad[i] = this.q_rad[i]!;
+      else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(this.q_rad[i]! - before) / dt_s);
+      gap_rad = Math.max(gap_rad, Math.abs(this.target_rad[i]! - this.q_rad[i]!));
     }
     // Somebody else moves it, or it still brakes from what moved it before.
-    if (!going && !fresh && fastest > DRIVEN_RAD_S) {
-      target_rad.set(q_rad);
+    if (!this.moving && !this.fresh && fastest > DRIVEN_RAD_S) {
+      this.target_rad.set(this.q_rad);
       gap_rad = 0;
     }
-    fresh = false;
-    const because = notStreamedBecause(message);
+    this.fresh = false;
+    const because = notStreamedBecause(this.message);
     if (because !== "") {
       // The way is given up where the robot stands: nothing old is told when it listens again.
-      target_rad.set(q_rad);
+      this.target_rad.set(this.q_rad);
       gap_rad = 0;
-      if (going) going.stopping ??= notStreamed(robot, because);
-      if (fastest <= STILL_RAD_S) end({ kind: "stopped", why: going?.stopping ?? notStreamed(robot, because) });
+      if (this.moving) this.ending ??= stopped(notStreamed(this.robot, because));
+      if (fastest <= STILL_RAD_S) this.settle(this.ending ?? stopped(notStreamed(this.robot, because)));
     }
-    if (because === "" && going?.isSent && gap_rad <= THERE_RAD)
-      end(going.stopping ? { kind: "stopped", why: going.stopping } : { kind: "done" });
-    moving = fastest > STILL_RAD_S || (going !== null && !going.isSent && override > 0 && gap_rad > THERE_RAD);
-    events?.state(message, message.axes);
+    if (because === "" && this.moving?.isSent && gap_rad <= THERE_RAD) this.settle(this.ending ?? DONE);
+    this.isInMotion =
+      fastest > STILL_RAD_S ||
+      (this.moving !== null && !this.moving.isSent && this.override > 0 && gap_rad > THERE_RAD);
+    this.events?.state(this.message, this.message.axes);
     // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
-    if (!socket || (severed && going === null)) return;
+    if (!this.socket || (this.severed && this.moving === null)) return;
     // Who does not listen is not answered: an answer that is late would be the first target of a program that has just
     // begun to listen.
     if (because !== "") return;
-    advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
-    answer.sequence = told = (told + 1) >>> 0;
-    answer.time_ms = message.time_ms;
-    socket.send(write(answer), from);
+    this.advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
+    this.answer.sequence = this.told = (this.told + 1) >>> 0;
+    this.answer.time_ms = this.message.time_ms;
+    this.socket.send(this.write(this.answer), from);
   }
 
-  function hear(lent: Uint8Array, from: Address): void {
-    if (from.host !== host) return;
-    const last_ms = message.time_ms;
-    if (readEgmRobot(lent, message) !== null) return;
-    heard_s = scheduler.now_s();
-    const dt_s = (message.time_ms - last_ms) / 1000;
+  readonly hear = (lent: Uint8Array, from: Address): void => {
+    if (from.host !== this.host) return;
+    const last_ms = this.message.time_ms;
+    if (readEgmRobot(lent, this.message) !== null) return;
+    this.heard_s = this.scheduler.now_s();
+    const dt_s = (this.message.time_ms - last_ms) / 1000;
     // Who moved the robot while nothing was heard is not known: it is not called back to where it was.
-    if (!going && !(dt_s <= MOST_GAP_S)) fresh = true;
-    if (message.axes === n) take(from, dt_s);
-    else events?.state(message, message.axes);
-  }
+    if (!this.moving && !(dt_s <= MOST_GAP_S)) this.fresh = true;
+    if (this.message.axes === this.n) this.take(from, dt_s);
+    else this.events?.state(this.message, this.message.axes);
+  };
+}
 
+function setpointStreamOf(guiding: Guide): SetpointStream {
   const guide: SetpointStream = {
-    port,
-    q_rad,
-    message,
+    port: guiding.port,
+    q_rad: guiding.q_rad,
+    message: guiding.message,
     get heard_s() {
-      return heard_s;
+      return guiding.heard_s;
     },
     get isGoing() {
-      return going !== null;
+      return guiding.moving !== null;
     },
     get isMoving() {
-      return moving;
+      return guiding.isInMotion;
     },
     get override() {
-      return override;
+      return guiding.override;
     },
     async open(to) {
       guide.close();
-      const bound = await network.bind({ host: options.local ?? (host.startsWith("127.") ? host : "0.0.0.0"), port });
+      const bound = await guiding.network.bind({
+        host: guiding.options.local ?? (guiding.host.startsWith("127.") ? guiding.host : "0.0.0.0"),
+        port: guiding.port,
+      });
       if (bound.kind === "taken") return taken(bound.sentence);
-      socket = bound.socket;
-      events = to;
-      severed = false;
-      fresh = true;
-      heard_s = -Infinity;
-      socket.onDatagram(hear);
+      guiding.socket = bound.socket;
+      guiding.events = to;
+      guiding.severed = false;
+      guiding.fresh = true;
+      guiding.heard_s = -Infinity;
+      guiding.socket.onDatagram(guiding.hear);
       return null;
     },
-    close(why = linkClosed(robot)) {
-      socket?.close();
-      socket = events = null;
-      moving = false;
-      end({ kind: "stopped", why });
+    close(why = linkClosed(guiding.robot)) {
+      guiding.socket?.close();
+      guiding.socket = guiding.events = null;
+      guiding.isInMotion = false;
+      guiding.settle({ kind: "stopped", why });
     },
     move(motion) {
-      const because = notStreamedBecause(message);
-      const why = !socket ? linkClosed(robot) : because !== "" ? notStreamed(robot, because) : null;
+      const because = notStreamedBecause(guiding.message);
+      const why = !guiding.socket
+        ? linkClosed(guiding.robot)
+        : because !== ""
+          ? notStreamed(guiding.robot, because)
+          : null;
       if (why) return Promise.resolve({ kind: "refused", why });
-      return new Promise(resolve => {
-        end({ kind: "stopped", why: wasStopped(robot) });
-        going = {
-          stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOfMotion(motion)], target_rad),
+      guiding.settle(stopped(wasStopped(guiding.robot)));
+      return guiding.execute(
+        resolve => ({
+          stepper: new Stepper(guiding.robot, { tools: {}, frames: {} }, [stepOfMotion(motion)], guiding.target_rad),
           resolve,
           isSent: false,
-          stopping: null,
-        };
-      });
+        }),
+        () => {
+          /* The next message of the controller is answered with the first of its path. */
+        },
+      );
     },
-    stop(emergency, why = wasStopped(robot)) {
-      severed ||= emergency;
-      if (!going) return;
-      going.stopping ??= why;
-      going.stepper.stop(true);
+    stop(emergency, why = wasStopped(guiding.robot)) {
+      guiding.severed ||= emergency;
+      if (!guiding.moving) return;
+      guiding.ending ??= stopped(why);
+      guiding.moving.stepper.stop(true);
     },
     setOverride(ratio) {
-      override = ratio;
+      guiding.override = ratio;
     },
     rearm() {
-      severed = false;
+      guiding.severed = false;
     },
   };
   return guide;

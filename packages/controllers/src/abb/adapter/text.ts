@@ -82,69 +82,107 @@ export function handRapid(
   isMoving: () => boolean,
   over: (well: boolean) => Promise<void>,
 ): TextRun {
-  let wanted = true;
-  const modules = files
-    .filter(({ name }) => /\.(mod|sys)$/i.test(name))
-    .map(file => ({ ...file, module: MODULE.exec(file.text)?.[1] ?? "" }));
-  const pause = (): Promise<void> =>
-    new Promise(resolve => {
-      const stop = scheduler.every(LOOK_S, () => {
+  return rapidRunOf(new RapidRun(files, client, state, scheduler, robot, left, isMoving, over));
+}
+
+class RapidRun {
+  readonly files: readonly EmittedFile[];
+  readonly client: RwsClient;
+  readonly state: PanelState;
+  readonly scheduler: Scheduler;
+  readonly robot: Robot;
+  readonly left: Set<string>;
+  readonly isMoving: () => boolean;
+  readonly over: (well: boolean) => Promise<void>;
+  wanted = true;
+  readonly modules: { module: string; name: string; text: string; lines: readonly string[] }[];
+
+  constructor(
+    files: readonly EmittedFile[],
+    client: RwsClient,
+    state: PanelState,
+    scheduler: Scheduler,
+    robot: Robot,
+    left: Set<string>,
+    isMoving: () => boolean,
+    over: (well: boolean) => Promise<void>,
+  ) {
+    this.files = files;
+    this.client = client;
+    this.state = state;
+    this.scheduler = scheduler;
+    this.robot = robot;
+    this.left = left;
+    this.isMoving = isMoving;
+    this.over = over;
+    this.modules = this.files
+      .filter(({ name }) => /\.(mod|sys)$/i.test(name))
+      .map(file => ({ ...file, module: MODULE.exec(file.text)?.[1] ?? "" }));
+  }
+
+  pause(): Promise<void> {
+    return new Promise(resolve => {
+      const stop = this.scheduler.every(LOOK_S, () => {
         stop();
         resolve();
       });
     });
+  }
+
   /** The state of the execution, asked for now. */
-  const isRunning = async (): Promise<boolean | null> => {
-    const reply = await client.get("/rw/rapid/execution");
-    return reply.kind === "answer" && state.takePanel("ctrlexecstate", reply.states) ? state.isRunning : null;
-  };
-  async function stands(): Promise<boolean> {
-    for (const from_s = scheduler.now_s(); scheduler.now_s() - from_s < STOPS_S; await pause()) {
-      const running = await isRunning();
+  async isRunning(): Promise<boolean | null> {
+    const reply = await this.client.get("/rw/rapid/execution");
+    return reply.kind === "answer" && this.state.takePanel("ctrlexecstate", reply.states) ? this.state.isRunning : null;
+  }
+
+  async stands(): Promise<boolean> {
+    for (const from_s = this.scheduler.now_s(); this.scheduler.now_s() - from_s < STOPS_S; await this.pause()) {
+      const running = await this.isRunning();
       if (running === null) return false;
-      if (!running && !isMoving()) return true;
+      if (!running && !this.isMoving()) return true;
     }
     return false;
   }
 
-  async function load(): Promise<Refusal | null> {
-    for (const { name, text } of modules) {
+  async load(): Promise<Refusal | null> {
+    for (const { name, text } of this.modules) {
       const why = wrong(
         `Writing ${name}`,
-        await client.put(pathText(["fileservice", FOLDER, name]), latin1Bytes(text)),
+        await this.client.put(pathText(["fileservice", FOLDER, name]), latin1Bytes(text)),
       );
       if (why) return why;
     }
-    for (const { module } of modules) if (module !== "") left.add(module);
+    for (const { module } of this.modules) if (module !== "") this.left.add(module);
     // Where it is not loaded there is nothing in the way.
-    await client.post(tasks("unloadmod"), { module: EGM_MODULE });
-    for (const { name } of modules) {
+    await this.client.post(tasks("unloadmod"), { module: EGM_MODULE });
+    for (const { name } of this.modules) {
       const why = wrong(
         `Loading ${name}`,
-        await client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${name}`, replace: "true" }),
+        await this.client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${name}`, replace: "true" }),
       );
       if (why) return why;
     }
-    return wrong("Setting the program pointer to PROC main", await pointToMain(client));
+    return wrong("Setting the program pointer to PROC main", await pointToMain(this.client));
   }
+
   /** Runs to the end, whoever ends it. */
-  async function carriedOut(): Promise<CommandOutcome> {
-    if (!wanted) return stopped(wasStopped(robot));
-    const why = wrong("Starting the program", await startProgram(client, "once"));
+  async carriedOut(): Promise<CommandOutcome> {
+    if (!this.wanted) return stopped(wasStopped(this.robot));
+    const why = wrong("Starting the program", await startProgram(this.client, "once"));
     if (why) return { kind: "refused", why };
     for (;;) {
-      await pause();
-      const running = await isRunning();
+      await this.pause();
+      const running = await this.isRunning();
       if (running === null) return stopped(refusedThere("The program", "the controller does not say whether it runs."));
       if (!running) break;
     }
-    const task = await client.get("/rw/rapid/tasks");
+    const task = await this.client.get("/rw/rapid/tasks");
     const own =
       task.kind === "answer" ? task.states.find(({ fields, title }) => (fields["name"] ?? title) === TASK) : undefined;
     // At its beginning again: it ended by itself.
-    if (wanted && own?.fields["excstate"]?.startsWith("read")) return DONE;
-    if (!wanted) return stopped(wasStopped(robot));
-    const log = await client.get("/rw/elog/0?lang=en");
+    if (this.wanted && own?.fields["excstate"]?.startsWith("read")) return DONE;
+    if (!this.wanted) return stopped(wasStopped(this.robot));
+    const log = await this.client.get("/rw/elog/0?lang=en");
     const last = log.kind === "answer" ? log.states[0]?.fields : undefined;
     return stopped(
       refusedThere(
@@ -154,40 +192,45 @@ export function handRapid(
     );
   }
 
-  async function giveBack(well: boolean): Promise<void> {
-    await stands();
-    await putBack(client, left);
-    await over(well);
+  async giveBack(well: boolean): Promise<void> {
+    await this.stands();
+    await putBack(this.client, this.left);
+    await this.over(well);
   }
 
-  async function handed(): Promise<UploadedProgram> {
-    if (modules.length === 0) return { kind: "refused", why: noModule() };
-    const mine = wrong("Mastership of RAPID", await client.post("/rw/mastership/rapid?action=request"));
+  async handed(): Promise<UploadedProgram> {
+    if (this.modules.length === 0) return { kind: "refused", why: noModule() };
+    const mine = wrong("Mastership of RAPID", await this.client.post("/rw/mastership/rapid?action=request"));
     if (mine) return { kind: "refused", why: mine };
     const why =
-      wrong("Stopping the program that runs", await stopProgram(client)) ??
-      ((await stands()) ? await load() : refusedThere("Stopping the program that runs", "it goes on running."));
+      wrong("Stopping the program that runs", await stopProgram(this.client)) ??
+      ((await this.stands())
+        ? await this.load()
+        : refusedThere("Stopping the program that runs", "it goes on running."));
     if (why) {
-      await giveBack(true);
+      await this.giveBack(true);
       return { kind: "refused", why };
     }
     return {
       kind: "handed",
-      drop() {
-        void giveBack(true);
+      drop: () => {
+        void this.giveBack(true);
       },
-      async start() {
-        const outcome = await carriedOut();
-        await giveBack(outcome.kind === "done" || !wanted);
+      start: async () => {
+        const outcome = await this.carriedOut();
+        await this.giveBack(outcome.kind === "done" || !this.wanted);
         return outcome;
       },
     };
   }
+}
+
+function rapidRunOf(run: RapidRun): TextRun {
   return {
-    handed: handed(),
+    handed: run.handed(),
     stop() {
-      wanted = false;
-      void stopProgram(client, true);
+      run.wanted = false;
+      void stopProgram(run.client, true);
     },
   };
 }

@@ -1,3 +1,4 @@
+import type { DatagramSocket } from "../../transport/port.ts";
 import {
   brakingTime_s,
   type CommandOutcome,
@@ -93,207 +94,245 @@ const GAIN_PER_S = 20;
  * A controller of numbers: it is guided from outside over EGM, and served over Robot Web Services where it has them.
  */
 export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbStart> {
-  const { robot, scheduler, network, host } = options;
-  const cycle_s = options.cycle_s ?? EGM_CYCLE_S;
-  const log =
-    options.log ??
-    (() => {
-      /* Nobody asked for it. */
+  const bound = await options.network.bind({ host: options.host, port: 0 });
+  return bound.kind === "taken" ? bound : openAbb(options, bound.socket);
+}
+
+function openAbb(options: VirtualAbbOptions, socket: DatagramSocket): Promise<AbbStart> {
+  return new AbbControllerState(options, socket).open();
+}
+
+class AbbControllerState {
+  readonly options: VirtualAbbOptions;
+  readonly socket: DatagramSocket;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly cycle_s: number;
+  readonly log: (sentence: string) => void;
+  readonly start_rad: ArrayLike<number> | undefined;
+  readonly initialize: (() => void) | undefined;
+  readonly neutral: VirtualController;
+  isOff = false;
+  byOthers = false;
+  powered_s: number;
+  cycled_s: number;
+  readonly virtualPendant: VirtualPendant;
+  readonly egm: EgmMotion;
+  readonly programs: Programs;
+  readonly files = new Files();
+  readonly lines: Lines;
+  readonly stopCycle: () => void;
+  server: RwsServer | null = null;
+
+  constructor(options: VirtualAbbOptions, socket: DatagramSocket) {
+    this.options = options;
+    this.socket = socket;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.cycle_s = this.options.cycle_s ?? EGM_CYCLE_S;
+    this.log =
+      this.options.log ??
+      (() => {
+        /* Nobody asked for it. */
+      });
+    this.start_rad = this.options.start_rad;
+    this.initialize = this.options.initialize;
+    this.neutral = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      cycle_s: this.cycle_s,
+      mode: "remote",
+      maxSpeed: this.options.maxSpeed ?? 1,
+      ...(this.start_rad ? { start_rad: this.start_rad } : {}),
+      ...(this.initialize ? { initialize: this.initialize } : {}),
     });
-  const bound = await network.bind({ host, port: 0 });
-  if (bound.kind === "taken") return bound;
-  const { socket } = bound;
-  const { start_rad, initialize } = options;
-  const neutral = createVirtualController({
-    robot,
-    scheduler,
-    cycle_s,
-    mode: "remote",
-    maxSpeed: options.maxSpeed ?? 1,
-    ...(start_rad ? { start_rad } : {}),
-    ...(initialize ? { initialize } : {}),
-  });
-  let isOff = false;
-  let byOthers = false;
-  let powered_s = scheduler.now_s();
-  let cycled_s = powered_s;
-  let stopWaiting: () => void = () => {
+    this.powered_s = this.scheduler.now_s();
+    this.cycled_s = this.powered_s;
+    this.virtualPendant = new VirtualPendant(this.now_s, because => {
+      this.egm.end("stopped", because);
+      this.programs.interrupted(because);
+    });
+    this.egm = new EgmMotion(
+      {
+        robot: this.robot,
+        socket: this.socket,
+        to: this.options.sensor ?? { host: this.host, port: EGM_PORT },
+        maxSpeed: this.options.maxSpeed ?? 1,
+        gain_per_s: Math.min(1 / LONGEST_CYCLE_S, this.options.gain_per_s ?? GAIN_PER_S),
+        commTimeout_s: this.options.commTimeout_s,
+        log: this.log,
+        failed: because => {
+          this.virtualPendant.log(EVENT.egm, 3, "EGM error", because);
+          this.programs.interrupted(because);
+        },
+      },
+      this.neutral.jointAngles(),
+    );
+    this.programs = new Programs(
+      this.neutral,
+      this.virtualPendant,
+      {
+        start: commTimeout_s => {
+          this.egm.start(commTimeout_s);
+        },
+        stop: () => {
+          this.egm.end("stopped", "The program was stopped.");
+        },
+      },
+      this.options.interpret ?? (() => ({ kind: "not-understood", faults: [] })),
+    );
+    this.lines = new Lines(this.neutral);
+    this.neutral.onSample(({ gripperClosed, signals }) => {
+      this.lines.take(gripperClosed, signals);
+    });
+    this.files.write(["$HOME", EGM_FILE], latin1Bytes(EGM_TEXT));
+    this.programs.load(EGM_TEXT, true);
+    this.start();
+    this.stopCycle = this.scheduler.every(this.cycle_s, () => {
+      // A clock that ticks late is made good in one longer cycle, up to a bound that keeps the lag stable.
+      const at_s = this.scheduler.now_s();
+      const dt_s = Math.min(LONGEST_CYCLE_S, at_s - this.cycled_s);
+      this.cycled_s = at_s;
+      if (this.isOff) {
+        this.egm.standsAt(q_rad => {
+          this.neutral.jointAngles(q_rad);
+        });
+        return;
+      }
+      this.egm.motorsOn = this.virtualPendant.motorsOn;
+      const others = this.programs.hasArm || this.neutral.isMoving();
+      const hadIt = this.byOthers;
+      this.byOthers = others;
+      // Where they left it is known a cycle later.
+      if (others || hadIt)
+        this.egm.standsAt(q_rad => {
+          this.neutral.jointAngles(q_rad);
+        });
+      else {
+        this.egm.cycle(dt_s);
+        this.neutral.jumpTo(this.egm.q_rad);
+      }
+      // A text that moves by itself has ended what was set up for guiding.
+      if (this.programs.isGuided && !this.egm.frozen) this.egm.tell(Math.round(this.now_s() * 1000));
+    });
+  }
+
+  async open(): Promise<AbbStart> {
+    if (this.options.rws !== undefined) {
+      this.server = await serveRws({
+        network: this.network,
+        host: this.host,
+        port: this.options.rws,
+        scheduler: this.scheduler,
+        log: this.log,
+        robot: this.robot,
+        model: this.options.model ?? this.robot.vendorSection?.model ?? this.robot.name.replace(/^ABB /, ""),
+        q_rad: () => this.neutral.jointAngles(),
+        cabinet: this.virtualPendant,
+        programs: this.programs,
+        files: this.files,
+        lines: this.lines,
+        isOff: () => this.isOff,
+      });
+      if (this.server.listening.kind === "taken") {
+        this.stopCycle();
+        this.socket.close();
+        this.neutral.close();
+        return { kind: "taken", sentence: this.server.listening.sentence };
+      }
+    }
+    return startedAbb(this);
+  }
+
+  stopWaiting: () => void = () => {
     /* Nothing is waited for yet. */
   };
-  const now_s = (): number => scheduler.now_s() - powered_s;
 
-  const virtualPendant = new VirtualPendant(now_s, because => {
-    egm.end("stopped", because);
-    programs.interrupted(because);
-  });
-  const egm = new EgmMotion(
-    {
-      robot,
-      socket,
-      to: options.sensor ?? { host, port: EGM_PORT },
-      maxSpeed: options.maxSpeed ?? 1,
-      gain_per_s: Math.min(1 / LONGEST_CYCLE_S, options.gain_per_s ?? GAIN_PER_S),
-      commTimeout_s: options.commTimeout_s,
-      log,
-      failed(because) {
-        virtualPendant.log(EVENT.egm, 3, "EGM error", because);
-        programs.interrupted(because);
-      },
-    },
-    neutral.jointAngles(),
-  );
-  const programs = new Programs(
-    neutral,
-    virtualPendant,
-    {
-      start(commTimeout_s) {
-        egm.start(commTimeout_s);
-      },
-      stop() {
-        egm.end("stopped", "The program was stopped.");
-      },
-    },
-    options.interpret ?? (() => ({ kind: "not-understood", faults: [] })),
-  );
-  const files = new Files();
-  const lines = new Lines(neutral);
-  neutral.onSample(({ gripperClosed, signals }) => {
-    lines.take(gripperClosed, signals);
-  });
-  files.write(["$HOME", EGM_FILE], latin1Bytes(EGM_TEXT));
-  programs.load(EGM_TEXT, true);
+  readonly now_s = (): number => this.scheduler.now_s() - this.powered_s;
 
   /** What a person does in the morning. */
-  function start(): void {
-    if (virtualPendant.switchOn() !== null) return;
+  start(): void {
+    if (this.virtualPendant.switchOn() !== null) return;
     // What somebody left there moves by itself: that is not started by turning a key.
-    if (programs.isRunning || !programs.isGuided) return;
-    if (programs.reset() === null) programs.start(null);
+    if (this.programs.isRunning || !this.programs.isGuided) return;
+    if (this.programs.reset() === null) this.programs.start(null);
   }
-  start();
+}
 
-  const stopCycle = scheduler.every(cycle_s, () => {
-    // A clock that ticks late is made good in one longer cycle, up to a bound that keeps the lag stable.
-    const at_s = scheduler.now_s();
-    const dt_s = Math.min(LONGEST_CYCLE_S, at_s - cycled_s);
-    cycled_s = at_s;
-    if (isOff) {
-      egm.standsAt(q_rad => {
-        neutral.jointAngles(q_rad);
-      });
-      return;
-    }
-    egm.motorsOn = virtualPendant.motorsOn;
-    const others = programs.hasArm || neutral.isMoving();
-    const hadIt = byOthers;
-    byOthers = others;
-    // Where they left it is known a cycle later.
-    if (others || hadIt)
-      egm.standsAt(q_rad => {
-        neutral.jointAngles(q_rad);
-      });
-    else {
-      egm.cycle(dt_s);
-      neutral.jumpTo(egm.q_rad);
-    }
-    // A text that moves by itself has ended what was set up for guiding.
-    if (programs.isGuided && !egm.frozen) egm.tell(Math.round(now_s() * 1000));
-  });
-
-  let server: RwsServer | null = null;
-  if (options.rws !== undefined) {
-    server = await serveRws({
-      network,
-      host,
-      port: options.rws,
-      scheduler,
-      log,
-      robot,
-      model: options.model ?? robot.vendorSection?.model ?? robot.name.replace(/^ABB /, ""),
-      q_rad: () => neutral.jointAngles(),
-      cabinet: virtualPendant,
-      programs,
-      files,
-      lines,
-      isOff: () => isOff,
-    });
-    if (server.listening.kind === "taken") {
-      stopCycle();
-      socket.close();
-      neutral.close();
-      return { kind: "taken", sentence: server.listening.sentence };
-    }
-  }
-
+function startedAbb(own: AbbControllerState): AbbStart {
   const controller: VirtualAbb = {
-    robot,
-    neutral,
-    programs,
-    cabinet: virtualPendant,
-    files,
-    lines,
-    address: socket.address,
-    rws: server?.listening.kind === "listening" ? server.listening.address : null,
-    brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
+    robot: own.robot,
+    neutral: own.neutral,
+    programs: own.programs,
+    cabinet: own.virtualPendant,
+    files: own.files,
+    lines: own.lines,
+    address: own.socket.address,
+    rws: own.server?.listening.kind === "listening" ? own.server.listening.address : null,
+    brakingTime_s: Math.max(brakingTime_s(own.robot) + 2 * own.cycle_s, own.neutral.brakingTime_s),
     get frozen() {
-      return egm.frozen;
+      return own.egm.frozen;
     },
     set frozen(is) {
-      egm.frozen = is;
+      own.egm.frozen = is;
     },
     get message() {
-      return egm.message;
+      return own.egm.message;
     },
     get hasFailed() {
-      return egm.hasFailed;
+      return own.egm.hasFailed;
     },
     pendant: {
-      setMode(to) {
-        neutral.atTheRobot.setMode(to);
-        virtualPendant.setKey(to === "manual" ? "MANR" : "AUTO");
-        if (to !== "manual") start();
+      setMode: to => {
+        own.neutral.atTheRobot.setMode(to);
+        own.virtualPendant.setKey(to === "manual" ? "MANR" : "AUTO");
+        if (to !== "manual") own.start();
       },
-      jog: target => neutral.atTheRobot.jog(target),
-      emergencyStop(is) {
-        virtualPendant.emergencyStop(is);
+      jog: target => own.neutral.atTheRobot.jog(target),
+      emergencyStop: is => {
+        own.virtualPendant.emergencyStop(is);
       },
-      setGuardOpen(open) {
-        virtualPendant.setGuardOpen(open);
+      setGuardOpen: open => {
+        own.virtualPendant.setGuardOpen(open);
       },
-      protectiveStop(because) {
-        egm.end("error", because);
-        virtualPendant.log(EVENT.failed, 3, "Motion supervision", because);
-        programs.interrupted(because);
+      protectiveStop: because => {
+        own.egm.end("error", because);
+        own.virtualPendant.log(EVENT.failed, 3, "Motion supervision", because);
+        own.programs.interrupted(because);
       },
-      setInput(signal, value) {
-        lines.setInput(signal, value);
+      setInput: (signal, value) => {
+        own.lines.setInput(signal, value);
       },
-      grantRemote(granted) {
-        server?.grantRemote(granted);
+      grantRemote: granted => {
+        own.server?.grantRemote(granted);
       },
     },
-    setRefusing(refusing) {
-      server?.setRefusing(refusing);
+    setRefusing: refusing => {
+      own.server?.setRefusing(refusing);
     },
-    reboot(off_s) {
-      virtualPendant.boot();
-      egm.boot();
-      server?.boot();
-      isOff = true;
-      stopWaiting();
-      const stop = scheduler.every(off_s, () => {
+    reboot: off_s => {
+      own.virtualPendant.boot();
+      own.egm.boot();
+      own.server?.boot();
+      own.isOff = true;
+      own.stopWaiting();
+      const stop = own.scheduler.every(off_s, () => {
         stop();
-        isOff = false;
-        powered_s = scheduler.now_s();
+        own.isOff = false;
+        own.powered_s = own.scheduler.now_s();
       });
-      stopWaiting = stop;
+      own.stopWaiting = stop;
     },
-    close() {
-      stopWaiting();
-      stopCycle();
-      server?.close();
-      socket.close();
-      neutral.close();
+    close: () => {
+      own.stopWaiting();
+      own.stopCycle();
+      own.server?.close();
+      own.socket.close();
+      own.neutral.close();
     },
   };
   return { kind: "started", controller };

@@ -1,4 +1,4 @@
-import { axesOfJoints, flangePose, type Robot } from "@twincell/core";
+import { axesOfJoints, flangePose, type Robot, type AxisCounting } from "@twincell/core";
 import { latin1Text, readForm, readTarget, type HttpRequest } from "../../http/index.ts";
 import { EXTERNAL_AXES, NO_AXIS, ROBOT_AXES, RWS_CODE, TASK, UNIT, type RwsState } from "../codec/index.ts";
 import type { VirtualPendant } from "./cabinet.ts";
@@ -53,27 +53,48 @@ export function createResources(
   options: ResourceOptions,
   sessions: Sessions,
 ): (session: Session, request: HttpRequest) => Answer {
-  const { cabinet: virtualPendant, programs, files, lines, robot } = options;
-  const counting = abbAxes(robot);
+  return resourcesOf(new Resources(options, sessions));
+}
+
+class Resources {
+  readonly options: ResourceOptions;
+  readonly sessions: Sessions;
+  readonly virtualPendant: VirtualPendant;
+  readonly programs: Programs;
+  readonly files: Files;
+  readonly lines: Lines;
+  readonly robot: Robot;
+  readonly counting: AxisCounting;
+
+  constructor(options: ResourceOptions, sessions: Sessions) {
+    this.options = options;
+    this.sessions = sessions;
+    this.virtualPendant = this.options.cabinet;
+    this.programs = this.options.programs;
+    this.files = this.options.files;
+    this.lines = this.options.lines;
+    this.robot = this.options.robot;
+    this.counting = abbAxes(this.robot);
+  }
 
   /** Why this client may not write; null when it may. */
-  function unwritable(session: Session, domain?: Domain): Answer | null {
-    if (virtualPendant.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED")
+  unwritable(session: Session, domain?: Domain): Answer | null {
+    if (this.virtualPendant.key !== "AUTO" && this.sessions.remoteOf(session) !== "GRANTED")
       return no(403, "In manual mode writing needs the leave of the person at the pendant (users/rmmp).");
-    return domain && sessions.isHeldByOther(domain, session)
+    return domain && this.sessions.isHeldByOther(domain, session)
       ? no(403, `Another client holds the mastership of ${domain}.`)
       : null;
   }
 
-  function panel(session: Session, name: string, action: string, form: Form | null): Answer {
+  panel(session: Session, name: string, action: string, form: Form | null): Answer {
     if (!form) {
       switch (name) {
         case "ctrlstate":
-          return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: virtualPendant.state }));
+          return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: this.virtualPendant.state }));
         case "opmode":
-          return states(state("pnl-opmode", "opmode", { opmode: virtualPendant.key }));
+          return states(state("pnl-opmode", "opmode", { opmode: this.virtualPendant.key }));
         case "speedratio":
-          return states(state("pnl-speedratio", "speedratio", { speedratio: virtualPendant.speedRatio }));
+          return states(state("pnl-speedratio", "speedratio", { speedratio: this.virtualPendant.speedRatio }));
         default:
           return no(404, `The panel has no ${name}.`);
       }
@@ -82,18 +103,18 @@ export function createResources(
       const to = form.get("ctrl-state");
       // Anyone may stop.
       if (to === "motoroff") {
-        virtualPendant.motorsOff("The motors were switched off from outside.");
+        this.virtualPendant.motorsOff("The motors were switched off from outside.");
         return DONE;
       }
       if (to !== "motoron") return no(400, "ctrl-state is motoron or motoroff.");
-      return unwritable(session) ?? orRefused(virtualPendant.switchOn());
+      return this.unwritable(session) ?? orRefused(this.virtualPendant.switchOn());
     }
     if (action === "setspeedratio" && name === "speedratio") {
       const text = form.get("speed-ratio") ?? "";
       const percent = Number(text);
       return (
-        unwritable(session) ??
-        (text.trim() !== "" && virtualPendant.setSpeedRatio(percent)
+        this.unwritable(session) ??
+        (text.trim() !== "" && this.virtualPendant.setSpeedRatio(percent)
           ? DONE
           : no(400, "speed-ratio is a number from 0 to 100."))
       );
@@ -101,80 +122,82 @@ export function createResources(
     return no(405, `There is no action ${action} of ${name}.`);
   }
 
-  function execution(session: Session, action: string, form: Form | null): Answer {
+  execution(session: Session, action: string, form: Form | null): Answer {
     if (!form)
       return states(
         state("rap-execution", "execution", {
-          ctrlexecstate: programs.isRunning ? "running" : "stopped",
-          cycle: programs.cycle,
+          ctrlexecstate: this.programs.isRunning ? "running" : "stopped",
+          cycle: this.programs.cycle,
         }),
       );
     if (action === "stop") {
-      if (form.get("stopmode") === "qstop") programs.interrupted("The program was stopped quickly from outside.");
-      else programs.stop();
+      if (form.get("stopmode") === "qstop") this.programs.interrupted("The program was stopped quickly from outside.");
+      else this.programs.stop();
       return DONE;
     }
-    const why = unwritable(session, "rapid");
+    const why = this.unwritable(session, "rapid");
     if (why) return why;
-    if (action === "resetpp") return orRefused(programs.reset());
+    if (action === "resetpp") return orRefused(this.programs.reset());
     const cycle = form.get("cycle");
     return action === "start"
-      ? orRefused(programs.start(cycle === "once" || cycle === "forever" ? cycle : null))
+      ? orRefused(this.programs.start(cycle === "once" || cycle === "forever" ? cycle : null))
       : no(405, `There is no action ${action} of the execution.`);
   }
 
-  function rapid(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
+  rapid(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
     switch (path[0]) {
       case "execution":
-        return execution(session, action, form);
+        return this.execution(session, action, form);
       case "tasks":
         return path.length === 1
-          ? task()
+          ? this.task()
           : path[1]?.toUpperCase() === TASK
-            ? task(session, action, form)
+            ? this.task(session, action, form)
             : no(404, `There is no task ${path[1]}.`);
       case "modules":
-        return states(...programs.names.map(name => state("rap-module-info-li", name, { name, type: "ProgMod" })));
+        return states(...this.programs.names.map(name => state("rap-module-info-li", name, { name, type: "ProgMod" })));
       case "symbols":
         return form && action === "search-symbols"
-          ? symbols(form)
+          ? this.symbols(form)
           : no(405, "Symbols are searched by the action search-symbols.");
       case "symbol":
         return path[1] === "data" && path[2]?.toUpperCase() === "RAPID"
-          ? datum(session, path.slice(3), form)
+          ? this.datum(session, path.slice(3), form)
           : no(404, "There is no such symbol.");
       default:
         return no(404, `RAPID has no ${path[0] ?? "such resource"}.`);
     }
   }
-  function task(session?: Session, action = "", form: Form | null = null): Answer {
+
+  task(session?: Session, action = "", form: Form | null = null): Answer {
     if (!session || !form)
       return states(
         state(session ? "rap-task" : "rap-task-li", TASK, {
           name: TASK,
           type: "norm",
           taskstate: "link",
-          excstate: programs.execution,
+          excstate: this.programs.execution,
           active: "On",
           motiontask: "TRUE",
         }),
       );
     if (action === "activate") return DONE;
     if (action === "deactivate") return no(403, "The only task is not switched off.");
-    const why = unwritable(session, "rapid");
+    const why = this.unwritable(session, "rapid");
     if (why) return why;
-    if (action === "unloadmod") return orRefused(programs.unload(form.get("module") ?? ""));
+    if (action === "unloadmod") return orRefused(this.programs.unload(form.get("module") ?? ""));
     if (action !== "loadmod") return no(405, `There is no action ${action} of a task.`);
     const place = Files.place((form.get("modulepath") ?? "").split("/").filter(part => part !== ""));
-    const bytes = place && files.read(place);
+    const bytes = place && this.files.read(place);
     return bytes
-      ? orRefused(programs.load(latin1Text(bytes), form.get("replace") === "true"))
+      ? orRefused(this.programs.load(latin1Text(bytes), form.get("replace") === "true"))
       : no(404, `There is no file ${form.get("modulepath") ?? ""}.`);
   }
-  function symbols(form: Form): Answer {
+
+  symbols(form: Form): Answer {
     const kind = form.get("symtyp") ?? "per";
     return states(
-      ...[...programs.texts].flatMap(({ name, text }) =>
+      ...[...this.programs.texts].flatMap(({ name, text }) =>
         dataOf(text)
           .filter(each => kind === "any" || each.kind === kind)
           .map(each =>
@@ -188,11 +211,12 @@ export function createResources(
       ),
     );
   }
+
   /** `task/module/name`, or `task/name` where the name is that of one module only. */
-  function datum(session: Session, path: readonly string[], form: Form | null): Answer {
+  datum(session: Session, path: readonly string[], form: Form | null): Answer {
     const [, ...below] = path;
     const name = below.at(-1) ?? "";
-    const found = [...programs.texts]
+    const found = [...this.programs.texts]
       .filter(module => below.length < 2 || module.name.toUpperCase() === below[0]!.toUpperCase())
       .flatMap(module =>
         dataOf(module.text)
@@ -202,20 +226,20 @@ export function createResources(
     if (path[0]?.toUpperCase() !== TASK || !found) return no(404, `There is no datum ${path.join("/")}.`);
     const { module, each } = found;
     if (!form) return states(state("rap-data", `RAPID/${TASK}/${module.name}/${each.name}`, { value: each.value }));
-    const why = unwritable(session, "rapid");
+    const why = this.unwritable(session, "rapid");
     const value = form.get("value") ?? "";
     if (why) return why;
     if (each.kind === "con") return no(403, `${each.name} is a constant.`);
     const text = withValue(module.text, each, value);
     if (text === null) return no(400, `"${value.slice(0, 40)}" is no value of RAPID.`);
-    programs.change(module.name, text);
+    this.programs.change(module.name, text);
     return DONE;
   }
 
-  function motion(path: readonly string[]): Answer {
+  motion(path: readonly string[]): Answer {
     if (path[0] !== "mechunits" || path[1]?.toUpperCase() !== UNIT) return no(404, "There is no such mechanical unit.");
-    const q_rad = options.q_rad();
-    const axes_deg = axesOfJoints(counting, q_rad, new Float64Array(q_rad.length));
+    const q_rad = this.options.q_rad();
+    const axes_deg = axesOfJoints(this.counting, q_rad, new Float64Array(q_rad.length));
     const external = (i: number): number => axes_deg[6 + i] ?? NO_AXIS;
     if (path[2] === "jointtarget") {
       return states(
@@ -229,7 +253,7 @@ export function createResources(
     const {
       position: [x, y, z],
       quaternion: [qx, qy, qz, qw],
-    } = flangePose(robot.arm, q_rad);
+    } = flangePose(this.robot.arm, q_rad);
     const quarter = (i: number): number => Math.floor((axes_deg[i] ?? 0) / 90);
     return states(
       state("ms-robtargets", UNIT, {
@@ -254,55 +278,57 @@ export function createResources(
     );
   }
 
-  const told = ({ name, kind, value }: Line): RwsState =>
+  readonly told = ({ name, kind, value }: Line): RwsState =>
     state("ios-signal-li", name, { name, type: kind, category: "", lvalue: Number(value), lstate: "not simulated" });
+
   /** `signals`, `signals/name`, or with a network and a unit in between. */
-  function signals(session: Session, path: readonly string[], form: Form | null): Answer {
+  signals(session: Session, path: readonly string[], form: Form | null): Answer {
     if (path[0] !== "signals") return no(404, "The I/O system has signals.");
     const name = path.at(-1)!;
-    const line = lines.find(name);
-    if (path.length === 1) return states(...lines.all.map(told));
+    const line = this.lines.find(name);
+    if (path.length === 1) return states(...this.lines.all.map(this.told));
     if (!line) return no(404, `There is no signal ${name}.`);
-    if (!form) return states({ ...told(line), type: "ios-signal" });
+    if (!form) return states({ ...this.told(line), type: "ios-signal" });
     const text = form.get("lvalue") ?? "";
     const value = Number(text);
     return (
-      unwritable(session) ??
+      this.unwritable(session) ??
       (text.trim() === "" || !Number.isFinite(value)
         ? no(400, "lvalue is a number.")
-        : orRefused(lines.write(name, value)))
+        : orRefused(this.lines.write(name, value)))
     );
   }
 
-  function mastership(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
+  mastership(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
     const asked = path.length === 0 ? DOMAINS : DOMAINS.filter(domain => domain === path[0]);
     if (asked.length === 0) return no(404, "Domains of mastership are cfg, motion and rapid.");
     if (!form)
       return states(
         ...asked.map(domain =>
-          state("msh-resource-li", domain, { mastership: sessions.masterOf(domain) ? "remote" : "nomaster" }),
+          state("msh-resource-li", domain, { mastership: this.sessions.masterOf(domain) ? "remote" : "nomaster" }),
         ),
       );
     if (action === "release") {
-      for (const domain of asked) sessions.release(domain, session);
+      for (const domain of asked) this.sessions.release(domain, session);
       return DONE;
     }
     if (action !== "request") return no(405, `There is no action ${action} of mastership.`);
-    if (virtualPendant.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED") return unwritable(session)!;
-    return asked.some(domain => sessions.isHeldByOther(domain, session))
+    if (this.virtualPendant.key !== "AUTO" && this.sessions.remoteOf(session) !== "GRANTED")
+      return this.unwritable(session)!;
+    return asked.some(domain => this.sessions.isHeldByOther(domain, session))
       ? no(403, "Another client holds it.", RWS_CODE.exists)
-      : asked.every(domain => sessions.request(domain, session))
+      : asked.every(domain => this.sessions.request(domain, session))
         ? DONE
         : no(403, "Another client holds it.");
   }
 
-  function users(session: Session, path: readonly string[], form: Form | null): Answer {
+  users(session: Session, path: readonly string[], form: Form | null): Answer {
     if (path[0] !== "rmmp") return no(404, "Of users there is rmmp.");
     if (form) {
-      sessions.askRemote(session);
+      this.sessions.askRemote(session);
       return { status: 202 };
     }
-    const status = virtualPendant.key === "AUTO" ? "GRANTED" : sessions.remoteOf(session);
+    const status = this.virtualPendant.key === "AUTO" ? "GRANTED" : this.sessions.remoteOf(session);
     return states(
       state(path[1] === "poll" ? "user-rmmp-poll" : "user-rmmp", "rmmp", {
         status,
@@ -311,7 +337,7 @@ export function createResources(
     );
   }
 
-  function file(method: string, path: readonly string[], body: Uint8Array): Answer {
+  file(method: string, path: readonly string[], body: Uint8Array): Answer {
     if (path.length === 0)
       return method === "GET"
         ? states(...FOLDERS.map(name => state("fs-dir", name, {})))
@@ -319,12 +345,12 @@ export function createResources(
     const place = Files.place(path);
     if (!place) return no(404, `There is no place ${path.join("/")}.`);
     if (method === "PUT") {
-      const isNew = place.length > 1 ? files.write(place, body) : null;
+      const isNew = place.length > 1 ? this.files.write(place, body) : null;
       return isNew === null ? no(403, "The disk is full, or this is a folder.") : { status: isNew ? 201 : 200 };
     }
-    if (method === "DELETE") return files.remove(place) ? DONE : no(404, `There is no file ${path.join("/")}.`);
-    const bytes = files.read(place);
-    const list = bytes ? null : files.list(place);
+    if (method === "DELETE") return this.files.remove(place) ? DONE : no(404, `There is no file ${path.join("/")}.`);
+    const bytes = this.files.read(place);
+    const list = bytes ? null : this.files.list(place);
     if (bytes) return { status: 200, file: bytes };
     return list
       ? states(
@@ -334,7 +360,9 @@ export function createResources(
         )
       : no(404, `There is no file ${path.join("/")}.`);
   }
+}
 
+function resourcesOf(own: Resources): (session: Session, request: HttpRequest) => Answer {
   return (session, { method, target, body }) => {
     const read = readTarget(target);
     const form = method === "POST" ? readForm(latin1Text(body)) : null;
@@ -343,14 +371,14 @@ export function createResources(
     const action = read.query.get("action") ?? "";
     if (first === "fileservice")
       return ["GET", "PUT", "DELETE"].includes(method)
-        ? file(method, read.path.slice(1), body)
+        ? own.file(method, read.path.slice(1), body)
         : no(405, "Files are read, put and deleted.");
     if (method !== "GET" && method !== "POST") return no(405, `${method} is not for this resource.`);
     if (first === "logout") {
-      sessions.end(session);
+      own.sessions.end(session);
       return { status: 200, states: [] };
     }
-    if (first === "users") return users(session, read.path.slice(1), form);
+    if (first === "users") return own.users(session, read.path.slice(1), form);
     if (first === "ctrl")
       return second.startsWith("$")
         ? states(state("ctrl-env", second, { _value: second }))
@@ -358,23 +386,25 @@ export function createResources(
     if (first !== "rw") return no(404, `There is no resource ${first}.`);
     switch (second) {
       case "panel":
-        return panel(session, rest[0] ?? "", action, form);
+        return own.panel(session, rest[0] ?? "", action, form);
       case "rapid":
-        return rapid(session, rest, action, form);
+        return own.rapid(session, rest, action, form);
       case "motionsystem":
-        return motion(rest);
+        return own.motion(rest);
       case "iosystem":
-        return signals(session, rest, form);
+        return own.signals(session, rest, form);
       case "mastership":
-        return mastership(session, rest, action, form);
+        return own.mastership(session, rest, action, form);
       case "system":
         return rest[0] === "robottype"
-          ? states(state("sys-robottype", "1", { "robot-type": options.model }))
+          ? states(state("sys-robottype", "1", { "robot-type": own.options.model }))
           : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
       case "elog":
         return rest[0] === "0"
-          ? states(...eventStates(virtualPendant.events))
-          : states(state("elog-domain-li", "0", { "domain-name": "Common", numevts: virtualPendant.events.length }));
+          ? states(...eventStates(own.virtualPendant.events))
+          : states(
+              state("elog-domain-li", "0", { "domain-name": "Common", numevts: own.virtualPendant.events.length }),
+            );
       default:
         return no(404, `There is no resource rw/${second}.`);
     }

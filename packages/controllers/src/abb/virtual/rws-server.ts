@@ -14,7 +14,7 @@ import {
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
 import { RWS_CODE, RWS_LOGIN, RWS_REALM, SESSION_COOKIES, errorJson, statesHtml, statesJson } from "../codec/index.ts";
 import { createResources, type Answer, type ResourceOptions } from "./rws-resources.ts";
-import { Sessions } from "./sessions.ts";
+import { Sessions, type Session } from "./sessions.ts";
 
 export interface RwsServerOptions extends ResourceOptions {
   readonly network: Network;
@@ -52,62 +52,86 @@ const REASONS: Readonly<Record<number, string>> = {
 };
 
 /** Robot Web Services of a virtual controller. Whoever sends what is no request is logged once and cut off. */
-export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
-  const { scheduler, host, isOff } = options;
-  const open = new Set<ByteStream>();
-  const logged = new Set<string>();
-  const sessions = new Sessions(() => scheduler.now_s());
-  const resources = createResources(options, sessions);
-  const challenge: Challenge = {
-    realm: RWS_REALM,
-    nonce: md5Hex(`${host}:${options.port}:${scheduler.now_s()}`),
-    opaque: "8798",
-    counted: true,
-  };
-  let refusing = false;
+export function serveRws(options: RwsServerOptions): Promise<RwsServer> {
+  return new RwsServing(options).open();
+}
 
-  function accept(stream: ByteStream): void {
-    if (open.size >= MOST_CLIENTS || refusing || isOff()) {
+class RwsServing {
+  readonly options: RwsServerOptions;
+  readonly scheduler: Scheduler;
+  readonly host: string;
+  readonly isOff: () => boolean;
+  readonly streams = new Set<ByteStream>();
+  readonly logged = new Set<string>();
+  readonly sessions: Sessions;
+  readonly resources: (session: Session, request: HttpRequest) => Answer;
+  readonly challenge: Challenge;
+  refusing = false;
+  listening!: Listening;
+
+  constructor(options: RwsServerOptions) {
+    this.options = options;
+    this.scheduler = this.options.scheduler;
+    this.host = this.options.host;
+    this.isOff = this.options.isOff;
+    this.sessions = new Sessions(() => this.scheduler.now_s());
+    this.resources = createResources(this.options, this.sessions);
+    this.challenge = {
+      realm: RWS_REALM,
+      nonce: md5Hex(`${this.host}:${this.options.port}:${this.scheduler.now_s()}`),
+      opaque: "8798",
+      counted: true,
+    };
+  }
+
+  async open(): Promise<RwsServer> {
+    this.listening = await this.options.network.listen({ host: this.host, port: this.options.port }, this.accept);
+    return rwsServerOf(this);
+  }
+
+  readonly accept = (stream: ByteStream): void => {
+    if (this.streams.size >= MOST_CLIENTS || this.refusing || this.isOff()) {
       stream.close();
       return;
     }
-    open.add(stream);
+    this.streams.add(stream);
     const reader = new RequestReader();
     let asked = 0;
     const end = (): void => {
-      open.delete(stream);
+      this.streams.delete(stream);
       stream.close();
     };
     stream.onEnd(() => {
-      open.delete(stream);
+      this.streams.delete(stream);
     });
     stream.onBytes(lent => {
-      if (!open.has(stream)) return;
+      if (!this.streams.has(stream)) return;
       const why = reader.push(lent, request => {
         const last = ++asked >= MOST_REQUESTS || hasWord(fieldOf(request, "connection"), "close");
-        answer(stream, request, last);
+        this.answer(stream, request, last);
         if (stream.waiting > MAX_WAITING) {
-          note(stream, "Answers are not read.");
+          this.note(stream, "Answers are not read.");
           end();
         }
         if (last) end();
-        return open.has(stream);
+        return this.streams.has(stream);
       });
       if (why === null) return;
-      note(stream, why);
+      this.note(stream, why);
       stream.send(responseBytes({ status: 400, reason: REASONS[400]!, fields: [["connection", "close"]] }));
       end();
     });
-  }
-  function note(stream: ByteStream, sentence: string): void {
+  };
+
+  note(stream: ByteStream, sentence: string): void {
     const line = `${stream.peer.host}: ${sentence} The connection is reset.`;
-    if (logged.size < MOST_LOGGED && !logged.has(line)) {
-      logged.add(line);
-      options.log(line);
+    if (this.logged.size < MOST_LOGGED && !this.logged.has(line)) {
+      this.logged.add(line);
+      this.options.log(line);
     }
   }
 
-  function answer(stream: ByteStream, request: HttpRequest, last: boolean): void {
+  answer(stream: ByteStream, request: HttpRequest, last: boolean): void {
     const send = (status: number, fields: Fields, body?: Uint8Array): void => {
       stream.send(
         responseBytes({
@@ -122,24 +146,25 @@ export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
         }),
       );
     };
-    let session = sessions.find(fieldOf(request, "cookie"));
+    let session = this.sessions.find(fieldOf(request, "cookie"));
     const fields: (readonly [string, string])[] = [];
     if (!session) {
-      if (!isAuthorized(fieldOf(request, "authorization"), RWS_LOGIN, challenge, request.method, request.target)) {
-        send(401, [["www-authenticate", challengeText(challenge)]]);
+      if (!isAuthorized(fieldOf(request, "authorization"), RWS_LOGIN, this.challenge, request.method, request.target)) {
+        send(401, [["www-authenticate", challengeText(this.challenge)]]);
         return;
       }
-      session = sessions.begin();
+      session = this.sessions.begin();
       if (!session) {
         send(503, []);
         return;
       }
       for (const name of SESSION_COOKIES) fields.push(["set-cookie", `${name}=${session.id}; path=/; httponly`]);
     }
-    const { status, body, type } = written(resources(session, request), request.target);
+    const { status, body, type } = this.written(this.resources(session, request), request.target);
     send(status, [...fields, ...(status === 204 ? [] : ([["content-type", type]] as const))], body);
   }
-  function written(
+
+  written(
     given: Answer,
     target: string,
   ): { readonly status: number; readonly body?: Uint8Array; readonly type: string } {
@@ -155,35 +180,37 @@ export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
     return isJson
       ? {
           status: given.status,
-          body: statesJson(given.states, `http://${host}${target.split("?")[0]!}`),
+          body: statesJson(given.states, `http://${this.host}${target.split("?")[0]!}`),
           type: "application/json",
         }
       : { status: given.status, body: statesHtml(given.states), type: "application/xhtml+xml;v=1.0" };
   }
 
-  const listening = await options.network.listen({ host, port: options.port }, accept);
-  const cut = (): void => {
-    for (const stream of [...open]) {
-      open.delete(stream);
+  cut(): void {
+    for (const stream of [...this.streams]) {
+      this.streams.delete(stream);
       stream.close();
     }
-  };
+  }
+}
+
+function rwsServerOf(own: RwsServing): RwsServer {
   return {
-    listening,
+    listening: own.listening,
     boot() {
-      cut();
-      sessions.clear();
+      own.cut();
+      own.sessions.clear();
     },
     setRefusing(is) {
-      refusing = is;
-      if (is) cut();
+      own.refusing = is;
+      if (is) own.cut();
     },
     grantRemote(granted) {
-      sessions.answerRemote(granted);
+      own.sessions.answerRemote(granted);
     },
     close() {
-      if (listening.kind === "listening") listening.close();
-      cut();
+      if (own.listening.kind === "listening") own.listening.close();
+      own.cut();
     },
   };
 }

@@ -1,3 +1,4 @@
+import type { Listening } from "../../transport/port.ts";
 import {
   compose,
   flangePose,
@@ -26,10 +27,10 @@ import {
   rmiBytes,
   rmiNumber,
   type RmiPacket,
-} from "../codec-rmi.ts";
-import { configurationOf, JOINTS } from "../configuration.ts";
+} from "../codec/rmi.ts";
+import { configurationOf, JOINTS } from "../codec/configuration.ts";
 import { instructionOf, type Instruction } from "./instructions.ts";
-import { serveFtp } from "./ftp-server.ts";
+import { serveFtp, type FtpServer } from "./ftp-server.ts";
 import { FanucMachine, T1_MPS, type FanucKey } from "./machine.ts";
 import { Programs } from "./programs.ts";
 
@@ -102,89 +103,218 @@ const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
  * pendant, fence.
  */
 export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<FanucStarted> {
-  const { robot, scheduler, network, host } = options;
-  const section = sectionForDriver(robot, "fanuc");
-  const digits = options.digits ?? 5;
-  if (section === undefined || robot.arm.joints.length !== JOINTS)
-    return { kind: "taken", sentence: `How a FANUC controller shows the joints of ${robot.name} is not known.` };
-  const joints: AxisCounting = section;
-  const log =
-    options.log ??
-    ((): void => {
-      /* Nobody asked for it. */
-    });
-  const arm = createVirtualController({
-    robot,
-    scheduler,
-    name: `Virtual ${robot.name}`,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
-    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
-  });
-  const faults: FanucFaults = { refusing: false, silent: false, delay_s: 0, frozen: false };
-  const now_rad = arm.jointAngles();
-  const shown = new Float64Array(JOINTS);
-  let session: ByteStream | null = null;
-  let expected = false;
-  let running = false;
-  let next = 1;
-  let queue: Waiting[] = [];
-  let busy: Waiting | null = null;
-  let life = 0;
-  let time_s = 0;
-  let booted_s = 0;
-  let last_s = 0;
-  let heard_s = 0;
-  let complaint = "";
-  const programs = new Programs(options.interpret ?? (() => ({ kind: "not-understood", faults: [] })));
+  const { robot } = options;
+  const joints = sectionForDriver(robot, "fanuc");
+  return joints === undefined || robot.arm.joints.length !== JOINTS
+    ? { kind: "taken", sentence: `How a FANUC controller shows the joints of ${robot.name} is not known.` }
+    : openFanuc(options, joints);
+}
 
-  const send = (packet: RmiPacket, to = session): void => {
-    if (!to || faults.silent) return;
+function openFanuc(options: VirtualFanucOptions, joints: AxisCounting): Promise<FanucStarted> {
+  return new FanucControllerState(options, joints).open();
+}
+
+class FanucControllerState {
+  readonly options: VirtualFanucOptions;
+  readonly joints: AxisCounting;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly digits: number;
+  readonly log: (sentence: string) => void;
+  readonly arm: VirtualController;
+  readonly faults: FanucFaults = { refusing: false, silent: false, delay_s: 0, frozen: false };
+  readonly now_rad: Float64Array;
+  readonly shown = new Float64Array(JOINTS);
+  session: ByteStream | null = null;
+  expected = false;
+  running = false;
+  next = 1;
+  queue: Waiting[] = [];
+  busy: Waiting | null = null;
+  life = 0;
+  time_s = 0;
+  booted_s = 0;
+  last_s = 0;
+  heard_s = 0;
+  complaint = "";
+  readonly programs: Programs;
+  readonly machine: FanucMachine;
+  second!: Listening & { kind: "listening" };
+  first!: Listening & { kind: "listening" };
+  ftp!: FtpServer | null;
+
+  constructor(options: VirtualFanucOptions, joints: AxisCounting) {
+    this.options = options;
+    this.joints = joints;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.digits = this.options.digits ?? 5;
+    this.log =
+      this.options.log ??
+      ((): void => {
+        /* Nobody asked for it. */
+      });
+    this.arm = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      name: `Virtual ${this.robot.name}`,
+      ...(this.options.start_rad ? { start_rad: this.options.start_rad } : {}),
+      ...(this.options.maxSpeed === undefined ? {} : { maxSpeed: this.options.maxSpeed }),
+    });
+    this.now_rad = this.arm.jointAngles();
+    this.programs = new Programs(this.options.interpret ?? (() => ({ kind: "not-understood", faults: [] })));
+    this.machine = new FanucMachine(this.arm, () => {
+      if (!this.running) return;
+      const SequenceID = this.busy?.sequence ?? this.next - 1;
+      this.abort();
+      this.send({ key: "Communication", name: "FRC_SystemFault", fields: { SequenceID } });
+    });
+    this.arm.onSample(sample => {
+      this.last_s = sample.time_s;
+      if (this.faults.frozen) return;
+      this.now_rad.set(sample.q_rad);
+      this.time_s = sample.time_s - this.booted_s;
+    });
+  }
+
+  async open(): Promise<FanucStarted> {
+    const second = await this.network.listen(
+      { host: this.host, port: this.options.sessionPort ?? RMI_SESSION_PORT },
+      stream => {
+        if (!this.expected || this.session || this.faults.refusing) {
+          stream.close();
+          return;
+        }
+        this.expected = false;
+        this.session = stream;
+        this.heard_s = this.scheduler.now_s();
+        // A motion that was sent is carried out to its end; what waited behind it is not.
+        this.attend(
+          stream,
+          packet => {
+            this.heard_s = this.scheduler.now_s();
+            return this.take(packet);
+          },
+          () => {
+            if (this.session === stream) {
+              this.session = null;
+              this.queue = [];
+            }
+          },
+        );
+      },
+    );
+    if (second.kind === "taken") {
+      this.arm.close();
+      return second;
+    }
+    this.second = second;
+    const first = await this.network.listen({ host: this.host, port: this.options.port ?? RMI_PORT }, stream => {
+      if (this.faults.refusing) {
+        stream.close();
+        return;
+      }
+      this.attend(
+        stream,
+        ({ key, name }) => {
+          if (key !== "Communication" || name !== "FRC_Connect") {
+            this.send({ key, name, fields: { ErrorID: RMI_ERROR.command } }, stream);
+            return true;
+          }
+          // A client that went without a word holds its place until the system notices; when another asks, so long a
+          // silence is taken for that.
+          if (this.session && this.scheduler.now_s() - this.heard_s > KEEP_ALIVE_S) {
+            this.session.close();
+            this.session = null;
+            this.queue = [];
+          }
+          const taken = this.session !== null;
+          if (!taken) this.expected = true;
+          this.send(
+            {
+              key,
+              name,
+              fields: {
+                ErrorID: taken ? RMI_ERROR.connected : RMI_ERROR.ok,
+                PortNumber: taken ? 0 : this.second.address.port,
+                ...VERSION,
+              },
+            },
+            stream,
+          );
+          return true;
+        },
+        () => {
+          /* It goes to the other port. */
+        },
+      );
+    });
+    if (first.kind === "taken") {
+      this.second.close();
+      this.arm.close();
+      return first;
+    }
+    this.first = first;
+    this.ftp =
+      this.options.ftpPort === undefined
+        ? null
+        : await serveFtp({
+            network: this.network,
+            host: this.host,
+            port: this.options.ftpPort,
+            programs: this.programs,
+            log: this.log,
+          });
+    if (this.ftp?.listening.kind === "taken") {
+      this.first.close();
+      this.second.close();
+      this.arm.close();
+      return this.ftp.listening;
+    }
+    return startedFanuc(this);
+  }
+
+  send(packet: RmiPacket, to = this.session): void {
+    if (!to || this.faults.silent) return;
     const bytes = rmiBytes(packet);
-    if (!(faults.delay_s > 0)) {
+    if (!(this.faults.delay_s > 0)) {
       to.send(bytes);
       return;
     }
-    const stop = scheduler.every(faults.delay_s, () => {
+    const stop = this.scheduler.every(this.faults.delay_s, () => {
       stop();
       to.send(bytes);
     });
-  };
-  const answer = ({ name, sequence }: Waiting, ErrorID: number): void => {
-    send({ key: "Instruction", name, fields: { ErrorID, SequenceID: sequence } });
-  };
+  }
+
+  answer({ name, sequence }: Waiting, ErrorID: number): void {
+    this.send({ key: "Instruction", name, fields: { ErrorID, SequenceID: sequence } });
+  }
 
   /** RMI_MOVE ends; what waited is forgotten. */
-  function abort(): void {
-    life++;
-    running = false;
-    queue = [];
-    busy = null;
-    machine.hold(false);
+  abort(): void {
+    this.life++;
+    this.running = false;
+    this.queue = [];
+    this.busy = null;
+    this.machine.hold(false);
   }
-  const machine = new FanucMachine(arm, () => {
-    if (!running) return;
-    const SequenceID = busy?.sequence ?? next - 1;
-    abort();
-    send({ key: "Communication", name: "FRC_SystemFault", fields: { SequenceID } });
-  });
-  arm.onSample(sample => {
-    last_s = sample.time_s;
-    if (faults.frozen) return;
-    now_rad.set(sample.q_rad);
-    time_s = sample.time_s - booted_s;
-  });
 
-  function work(): void {
-    if (busy) return;
-    const waiting = queue.shift();
-    const mine = life;
+  work(): void {
+    if (this.busy) return;
+    const waiting = this.queue.shift();
+    const mine = this.life;
     if (!waiting) return;
-    busy = waiting;
+    this.busy = waiting;
     const end = (id: number): void => {
-      if (mine !== life) return;
-      busy = null;
-      answer(waiting, id);
-      work();
+      if (mine !== this.life) return;
+      this.busy = null;
+      this.answer(waiting, id);
+      this.work();
     };
     const { instruction } = waiting;
     if (instruction.kind === "error" || instruction.kind === "nothing") {
@@ -193,100 +323,105 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     }
     const callee =
       instruction.kind === "call"
-        ? programs.call(instruction.program, arm.signals)
+        ? this.programs.call(instruction.program, this.arm.signals)
         : ({
             kind: "ready",
-            steps: [instruction.make(arm.jointAngles())],
+            steps: [instruction.make(this.arm.jointAngles())],
             context: { tools: {}, frames: {} },
           } as const);
     if (callee.kind === "not-understood") {
-      complaint = `INTP-105 ${callee.sentence}`;
+      this.complaint = `INTP-105 ${callee.sentence}`;
       end(RMI_ERROR.program);
       return;
     }
-    void arm.run(callee.steps, callee.context).then(outcome => {
-      if (mine !== life) return;
+    void this.arm.run(callee.steps, callee.context).then(outcome => {
+      if (mine !== this.life) return;
       if (outcome.kind === "done") {
         end(RMI_ERROR.ok);
         return;
       }
-      answer(waiting, RMI_ERROR.position);
-      machine.fault(outcome.why.sentence);
+      this.answer(waiting, RMI_ERROR.position);
+      this.machine.fault(outcome.why.sentence);
     });
   }
 
-  const whyNot = (): number =>
-    machine.pendant ? RMI_ERROR.pendant : !machine.ready ? RMI_ERROR.servoOff : RMI_ERROR.ok;
-  function command(name: string, fields: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> {
+  whyNot(): number {
+    return this.machine.pendant ? RMI_ERROR.pendant : !this.machine.ready ? RMI_ERROR.servoOff : RMI_ERROR.ok;
+  }
+
+  command(name: string, fields: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> {
     const only = (ErrorID: number): { ErrorID: number } => ({ ErrorID });
-    const TimeTag = Math.round(1000 * time_s);
+    const TimeTag = Math.round(1000 * this.time_s);
     switch (name) {
       case "FRC_Initialize": {
-        const why = whyNot();
+        const why = this.whyNot();
         if (why !== RMI_ERROR.ok) return only(why);
-        if (running || arm.isMoving()) return only(RMI_ERROR.program);
-        abort();
-        running = true;
-        next = 1;
+        if (this.running || this.arm.isMoving()) return only(RMI_ERROR.program);
+        this.abort();
+        this.running = true;
+        this.next = 1;
         return { ...only(RMI_ERROR.ok), GroupMask: 1 };
       }
       case "FRC_Abort":
-        if (!running) return only(RMI_ERROR.notRunning);
-        abort();
-        arm.stop();
+        if (!this.running) return only(RMI_ERROR.notRunning);
+        this.abort();
+        this.arm.stop();
         return only(RMI_ERROR.ok);
       case "FRC_Pause":
-        if (!running) return only(RMI_ERROR.notRunning);
-        machine.hold(true);
+        if (!this.running) return only(RMI_ERROR.notRunning);
+        this.machine.hold(true);
         return only(RMI_ERROR.ok);
       case "FRC_Continue":
-        if (!machine.isHeld) return only(RMI_ERROR.notPaused);
-        machine.hold(false);
+        if (!this.machine.isHeld) return only(RMI_ERROR.notPaused);
+        this.machine.hold(false);
         return only(RMI_ERROR.ok);
       case "FRC_Reset":
-        complaint = "";
-        return only(machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
+        this.complaint = "";
+        return only(this.machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
       case "FRC_ReadError":
         return {
           ...only(RMI_ERROR.ok),
-          Count: Math.min(1, machine.faults.length),
-          ErrorData: machine.faults.at(-1) ?? complaint,
+          Count: Math.min(1, this.machine.faults.length),
+          ErrorData: this.machine.faults.at(-1) ?? this.complaint,
         };
       case "FRC_GetStatus":
         return {
           ...only(RMI_ERROR.ok),
-          ServoReady: machine.ready ? 1 : 0,
-          TPMode: machine.pendant ? 1 : 0,
-          RMIMotionStatus: running ? 1 : 0,
-          ProgramStatus: machine.isHeld ? 1 : 0,
+          ServoReady: this.machine.ready ? 1 : 0,
+          TPMode: this.machine.pendant ? 1 : 0,
+          RMIMotionStatus: this.running ? 1 : 0,
+          ProgramStatus: this.machine.isHeld ? 1 : 0,
           SingleStepMode: 0,
           NumberUTool: 10,
           NumberUFrame: 9,
-          NextSequenceID: next,
-          Override: machine.override,
+          NextSequenceID: this.next,
+          Override: this.machine.override,
         };
       case "FRC_ReadJointAngles":
         return {
           ...only(RMI_ERROR.ok),
           TimeTag,
-          JointAngle: jointPart(axesOfJoints(joints, now_rad, shown), digits),
+          JointAngle: jointPart(axesOfJoints(this.joints, this.now_rad, this.shown), this.digits),
           Group: 1,
         };
       case "FRC_ReadCartesianPosition": {
-        const at = compose(inverse(robot.baseFromVendorWorld as Pose), flangePose(robot.arm, now_rad) as Pose);
+        const at = compose(
+          inverse(this.robot.baseFromVendorWorld as Pose),
+          flangePose(this.robot.arm, this.now_rad) as Pose,
+        );
         const [w, p, r] = toFanucWpr(at.quaternion);
-        const [X, Y, Z] = at.position.map(value => Number((1000 * value).toFixed(digits)));
-        const [W, P, R] = [w, p, r].map(value => Number(value.toFixed(digits)));
+        const [X, Y, Z] = at.position.map(value => Number((1000 * value).toFixed(this.digits)));
+        const [W, P, R] = [w, p, r].map(value => Number(value.toFixed(this.digits)));
         return {
           ...only(RMI_ERROR.ok),
           TimeTag,
-          Configuration: { UToolNumber: 1, UFrameNumber: 0, ...configurationOf(robot, now_rad) },
+          Configuration: { UToolNumber: 1, UFrameNumber: 0, ...configurationOf(this.robot, this.now_rad) },
           Position: { X, Y, Z, W, P, R, Ext1: 0, Ext2: 0, Ext3: 0 },
           Group: 1,
         };
       }
       case "FRC_SetOverRide":
-        return only(machine.setOverride(rmiNumber(fields, "Value")) ? RMI_ERROR.ok : RMI_ERROR.override);
+        return only(this.machine.setOverride(rmiNumber(fields, "Value")) ? RMI_ERROR.ok : RMI_ERROR.override);
       case "FRC_SetUFrameUTool":
         return only(RMI_ERROR.ok);
       case "FRC_GetUFrameUTool":
@@ -294,14 +429,14 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
       case "FRC_ReadDIN": {
         const n = rmiNumber(fields, "PortNumber");
         return Number.isInteger(n) && n > 0
-          ? { ...only(RMI_ERROR.ok), PortNumber: n, PortValue: arm.signals.read(`DI[${n}]`) === true ? 1 : 0 }
+          ? { ...only(RMI_ERROR.ok), PortNumber: n, PortValue: this.arm.signals.read(`DI[${n}]`) === true ? 1 : 0 }
           : only(RMI_ERROR.value);
       }
       case "FRC_WriteDOUT": {
         const n = rmiNumber(fields, "PortNumber");
         const value = fields["PortValue"];
         if (!(Number.isInteger(n) && n > 0) || (value !== "ON" && value !== "OFF")) return only(RMI_ERROR.value);
-        arm.signals.write(`DO[${n}]`, value === "ON");
+        this.arm.signals.write(`DO[${n}]`, value === "ON");
         return only(RMI_ERROR.ok);
       }
       default:
@@ -309,39 +444,39 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     }
   }
 
-  function take(packet: RmiPacket): boolean {
+  take(packet: RmiPacket): boolean {
     const { key, name, fields } = packet;
-    if (key === "Command") send({ key, name, fields: command(name, fields) });
+    if (key === "Command") this.send({ key, name, fields: this.command(name, fields) });
     else if (key === "Instruction") {
       const sequence = rmiNumber(fields, "SequenceID");
       const reply = {
         name,
         sequence: Number.isFinite(sequence) ? sequence : 0,
-        instruction: instructionOf(packet, robot, joints),
+        instruction: instructionOf(packet, this.robot, this.joints),
       };
-      const why = !running
+      const why = !this.running
         ? RMI_ERROR.notRunning
-        : sequence !== next
+        : sequence !== this.next
           ? RMI_ERROR.sequence
-          : queue.length >= MAX_WAITING
+          : this.queue.length >= MAX_WAITING
             ? RMI_ERROR.failed
             : RMI_ERROR.ok;
       if (why !== RMI_ERROR.ok) {
-        answer(reply, why);
+        this.answer(reply, why);
         return true;
       }
-      next++;
-      queue.push(reply);
-      work();
+      this.next++;
+      this.queue.push(reply);
+      this.work();
     } else if (name === "FRC_Disconnect") {
-      send({ key, name, fields: { ErrorID: RMI_ERROR.ok } });
+      this.send({ key, name, fields: { ErrorID: RMI_ERROR.ok } });
       return false;
     }
     return true;
   }
 
   /** Lines into packets; whoever sends what is none is logged once and cut off. */
-  function attend(stream: ByteStream, onPacket: (packet: RmiPacket) => boolean, over: () => void): void {
+  attend(stream: ByteStream, onPacket: (packet: RmiPacket) => boolean, over: () => void): void {
     const reader = new RmiReader();
     let isOver = false;
     const end = (): void => {
@@ -359,164 +494,85 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         return !isOver;
       });
       if (why) {
-        log(`${stream.peer.host}:${stream.peer.port}: ${why} The connection is reset.`);
+        this.log(`${stream.peer.host}:${stream.peer.port}: ${why} The connection is reset.`);
         end();
       }
     });
   }
+}
 
-  const second = await network.listen({ host, port: options.sessionPort ?? RMI_SESSION_PORT }, stream => {
-    if (!expected || session || faults.refusing) {
-      stream.close();
-      return;
-    }
-    expected = false;
-    session = stream;
-    heard_s = scheduler.now_s();
-    // A motion that was sent is carried out to its end; what waited behind it is not.
-    attend(
-      stream,
-      packet => {
-        heard_s = scheduler.now_s();
-        return take(packet);
-      },
-      () => {
-        if (session === stream) {
-          session = null;
-          queue = [];
-        }
-      },
-    );
-  });
-  if (second.kind === "taken") {
-    arm.close();
-    return second;
-  }
-  const first = await network.listen({ host, port: options.port ?? RMI_PORT }, stream => {
-    if (faults.refusing) {
-      stream.close();
-      return;
-    }
-    attend(
-      stream,
-      ({ key, name }) => {
-        if (key !== "Communication" || name !== "FRC_Connect") {
-          send({ key, name, fields: { ErrorID: RMI_ERROR.command } }, stream);
-          return true;
-        }
-        // A client that went without a word holds its place until the system notices; when another asks, so long a
-        // silence is taken for that.
-        if (session && scheduler.now_s() - heard_s > KEEP_ALIVE_S) {
-          session.close();
-          session = null;
-          queue = [];
-        }
-        const taken = session !== null;
-        if (!taken) expected = true;
-        send(
-          {
-            key,
-            name,
-            fields: {
-              ErrorID: taken ? RMI_ERROR.connected : RMI_ERROR.ok,
-              PortNumber: taken ? 0 : second.address.port,
-              ...VERSION,
-            },
-          },
-          stream,
-        );
-        return true;
-      },
-      () => {
-        /* It goes to the other port. */
-      },
-    );
-  });
-  if (first.kind === "taken") {
-    second.close();
-    arm.close();
-    return first;
-  }
-  const ftp =
-    options.ftpPort === undefined ? null : await serveFtp({ network, host, port: options.ftpPort, programs, log });
-  if (ftp?.listening.kind === "taken") {
-    first.close();
-    second.close();
-    arm.close();
-    return ftp.listening;
-  }
-
+function startedFanuc(own: FanucControllerState): FanucStarted {
   return {
     kind: "started",
     virtual: {
-      robot,
-      arm,
-      faults,
-      programs,
+      robot: own.robot,
+      arm: own.arm,
+      faults: own.faults,
+      programs: own.programs,
       ports: {
-        connect: first.address.port,
-        session: second.address.port,
-        files: ftp?.listening.kind === "listening" ? ftp.listening.address.port : 0,
+        connect: own.first.address.port,
+        session: own.second.address.port,
+        files: own.ftp?.listening.kind === "listening" ? own.ftp.listening.address.port : 0,
       },
       get servosOn() {
-        return machine.ready;
+        return own.machine.ready;
       },
-      machine,
-      isRunning: () => running,
+      machine: own.machine,
+      isRunning: () => own.running,
       pendant: {
         setKey(key) {
-          machine.setKey(key);
+          own.machine.setKey(key);
         },
         setEmergencyStop(pressed) {
-          machine.setEmergency(pressed);
+          own.machine.setEmergency(pressed);
         },
         setGuardOpen(open) {
-          machine.setFence(open);
+          own.machine.setFence(open);
         },
         fault(text) {
-          machine.fault(text);
+          own.machine.fault(text);
         },
-        reset: () => machine.reset(),
+        reset: () => own.machine.reset(),
         setInput(n, value) {
-          arm.signals.write(`DI[${n}]`, value);
+          own.arm.signals.write(`DI[${n}]`, value);
         },
         async jog(q_rad, most = 1) {
-          if (!machine.pendant || !machine.ready)
+          if (!own.machine.pendant || !own.machine.ready)
             return {
               kind: "refused",
               why: {
                 code: "controller.not-manual",
-                sentence: machine.pendant ? "The servos are off." : "The pendant is not enabled.",
+                sentence: own.machine.pendant ? "The servos are off." : "The pendant is not enabled.",
                 hint: "Turn the key to T1 and reset the faults.",
               },
             };
-          const full_mps = jointMoveSpeed(robot, arm.jointAngles(), q_rad, FLANGE);
+          const full_mps = jointMoveSpeed(own.robot, own.arm.jointAngles(), q_rad, FLANGE);
           const step: MoveStep = {
             id: "jog",
             type: "move",
             path: "ptp",
             target: { q: Array.from(q_rad) },
-            speed: { ratio: machine.key === "T1" && full_mps > T1_MPS ? Math.min(most, T1_MPS / full_mps) : most },
+            speed: { ratio: own.machine.key === "T1" && full_mps > T1_MPS ? Math.min(most, T1_MPS / full_mps) : most },
             blend_m: 0,
           };
-          return arm.run([step], { tools: {}, frames: {} });
+          return own.arm.run([step], { tools: {}, frames: {} });
         },
       },
       reboot() {
-        ftp?.cut();
-        session?.close();
-        session = null;
-        abort();
-        machine.fault("SYST-026 System normal power up");
-        booted_s = last_s;
-        time_s = 0;
+        own.ftp?.cut();
+        own.session?.close();
+        own.session = null;
+        own.abort();
+        own.machine.fault("SYST-026 System normal power up");
+        own.booted_s = own.last_s;
+        own.time_s = 0;
       },
       close() {
-        first.close();
-        second.close();
-        ftp?.close();
-        session?.close();
-        arm.close();
+        own.first.close();
+        own.second.close();
+        own.ftp?.close();
+        own.session?.close();
+        own.arm.close();
       },
     },
   };

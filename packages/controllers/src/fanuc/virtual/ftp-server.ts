@@ -1,5 +1,5 @@
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
-import { FtpLines, lineBytes, MAX_FILE, passiveText, readCommand, type FtpCommand } from "../codec-ftp.ts";
+import { FtpLines, lineBytes, MAX_FILE, passiveText, readCommand, type FtpCommand } from "../codec/ftp.ts";
 import type { Programs } from "./programs.ts";
 
 export interface FtpServerOptions {
@@ -84,58 +84,76 @@ export async function serveFtp(options: FtpServerOptions): Promise<FtpServer> {
 
 /** One client: who it is, and the connection over which its next file goes. */
 function session(
-  { network, host, programs }: FtpServerOptions,
+  options: FtpServerOptions,
   say: (code: number, text: string) => void,
 ): { take(command: FtpCommand): boolean; close(): void } {
-  let isIn = false;
-  let isOver = false;
-  let came = false;
-  let route: { close(): void } | null = null;
-  let data: ByteStream | null = null;
-  let then: ((stream: ByteStream) => void) | null = null;
+  return sessionOf(new FtpSession(options, say));
+}
 
-  function shut(): void {
-    route?.close();
-    data?.close();
-    route = data = then = null;
+class FtpSession {
+  readonly network: Network;
+  readonly host: string;
+  readonly programs: Programs;
+  readonly say: (code: number, text: string) => void;
+  isIn = false;
+  isOver = false;
+  came = false;
+  route: { close(): void } | null = null;
+  data: ByteStream | null = null;
+  then: ((stream: ByteStream) => void) | null = null;
+
+  constructor({ network, host, programs }: FtpServerOptions, say: (code: number, text: string) => void) {
+    this.network = network;
+    this.host = host;
+    this.programs = programs;
+    this.say = say;
   }
-  async function passive(): Promise<void> {
-    shut();
-    const listening = await network.listen({ host, port: 0 }, stream => {
-      if (came || isOver) {
+
+  shut(): void {
+    this.route?.close();
+    this.data?.close();
+    this.route = this.data = this.then = null;
+  }
+
+  async passive(): Promise<void> {
+    this.shut();
+    const listening = await this.network.listen({ host: this.host, port: 0 }, stream => {
+      if (this.came || this.isOver) {
         stream.close();
         return;
       }
-      came = true;
+      this.came = true;
       // The port stays open until the next one is asked for: closing it would cut what came over it.
-      data = stream;
-      then?.(stream);
-      then = null;
+      this.data = stream;
+      this.then?.(stream);
+      this.then = null;
     });
     if (listening.kind === "taken") {
-      say(425, "No port is free.");
+      this.say(425, "No port is free.");
       return;
     }
-    if (isOver) {
+    if (this.isOver) {
       listening.close();
       return;
     }
-    route = listening;
-    came = false;
-    say(227, passiveText(host, listening.address.port));
+    this.route = listening;
+    this.came = false;
+    this.say(227, passiveText(this.host, listening.address.port));
   }
+
   /** As soon as the client has come to the port that it was told. */
-  function overData(go: (stream: ByteStream) => void): void {
-    if (!route || (came && !data)) {
-      say(425, "Use PASV first.");
+  overData(go: (stream: ByteStream) => void): void {
+    if (!this.route || (this.came && !this.data)) {
+      this.say(425, "Use PASV first.");
       return;
     }
-    say(150, "Opening the data connection.");
-    if (data) go(data);
-    else then = go;
+    this.say(150, "Opening the data connection.");
+    if (this.data) go(this.data);
+    else this.then = go;
   }
-  function store(name: string): void {
-    overData(stream => {
+
+  store(name: string): void {
+    this.overData(stream => {
       let text = "";
       let isFull = false;
       stream.onBytes(lent => {
@@ -144,23 +162,26 @@ function session(
           for (let i = 0; i < lent.length; i += LETTERS) text += String.fromCharCode(...lent.subarray(i, i + LETTERS));
       });
       stream.onEnd(() => {
-        if (data !== stream) return;
-        data = null;
-        const why = isFull ? `a file of more than ${MAX_FILE} bytes` : programs.store(name, text);
-        if (why === null) say(226, "Stored.");
-        else say(550, why);
+        if (this.data !== stream) return;
+        this.data = null;
+        const why = isFull ? `a file of more than ${MAX_FILE} bytes` : this.programs.store(name, text);
+        if (why === null) this.say(226, "Stored.");
+        else this.say(550, why);
       });
     });
   }
-  function send(text: string): void {
-    overData(stream => {
+
+  send(text: string): void {
+    this.overData(stream => {
       stream.send(Uint8Array.from(text, sign => sign.charCodeAt(0) & 255));
       stream.close();
-      data = null;
-      say(226, "Sent.");
+      this.data = null;
+      this.say(226, "Sent.");
     });
   }
+}
 
+function sessionOf(own: FtpSession): { take(command: FtpCommand): boolean; close(): void } {
   return {
     take({ name, rest }) {
       const file = rest
@@ -169,84 +190,84 @@ function session(
         .toUpperCase();
       switch (name) {
         case "USER":
-          isIn = true;
-          say(230, "User logged in.");
+          own.isIn = true;
+          own.say(230, "User logged in.");
           return true;
         case "PASS":
-          isIn = true;
-          say(230, "User logged in.");
+          own.isIn = true;
+          own.say(230, "User logged in.");
           return true;
         case "QUIT":
-          say(221, "Goodbye.");
+          own.say(221, "Goodbye.");
           return false;
         case "NOOP":
         case "TYPE":
         case "MODE":
         case "STRU":
-          say(200, "Well.");
+          own.say(200, "Well.");
           return true;
         case "SYST":
-          say(215, "UNIX emulated by a virtual controller.");
+          own.say(215, "UNIX emulated by a virtual controller.");
           return true;
         default:
           break;
       }
-      if (!isIn) {
-        say(530, "Log in first.");
+      if (!own.isIn) {
+        own.say(530, "Log in first.");
         return true;
       }
       switch (name) {
         case "PWD":
         case "XPWD":
-          say(257, '"MD:\\" is the device.');
+          own.say(257, '"MD:\\" is the device.');
           return true;
         case "CWD":
-          if (/^(md:?[\\/]?|[\\/]?)$/i.test(rest)) say(250, "MD:");
-          else say(550, "There is the device MD: only.");
+          if (/^(md:?[\\/]?|[\\/]?)$/i.test(rest)) own.say(250, "MD:");
+          else own.say(550, "There is the device MD: only.");
           return true;
         case "PASV":
-          void passive();
+          void own.passive();
           return true;
         case "STOR":
-          store(file);
+          own.store(file);
           return true;
         case "RETR": {
-          const text = programs.read(file);
-          if (text === undefined) say(550, `There is no file ${file}.`);
-          else send(text);
+          const text = own.programs.read(file);
+          if (text === undefined) own.say(550, `There is no file ${file}.`);
+          else own.send(text);
           return true;
         }
         case "SIZE": {
-          const text = programs.read(file);
-          if (text === undefined) say(550, `There is no file ${file}.`);
-          else say(213, String(text.length));
+          const text = own.programs.read(file);
+          if (text === undefined) own.say(550, `There is no file ${file}.`);
+          else own.say(213, String(text.length));
           return true;
         }
         case "DELE":
-          if (programs.remove(file)) say(250, "Deleted.");
-          else say(550, `There is no file ${file}.`);
+          if (own.programs.remove(file)) own.say(250, "Deleted.");
+          else own.say(550, `There is no file ${file}.`);
           return true;
         case "NLST":
-          send(programs.names.map(each => `${each}\r\n`).join(""));
+          own.send(own.programs.names.map(each => `${each}\r\n`).join(""));
           return true;
         case "LIST":
-          send(
-            programs.names
+          own.send(
+            own.programs.names
               .map(
                 each =>
-                  `-rw-rw-rw- 1 noone nogroup ${String(programs.read(each)!.length).padStart(8)} Jan  1 00:00 ${each.toLowerCase()}\r\n`,
+                  `-rw-rw-rw- 1 noone nogroup ${String(own.programs.read(each)!.length).padStart(8)} Jan  1 00:00 ${each.toLowerCase()}\r\n`,
               )
               .join(""),
           );
           return true;
         default:
-          say(502, `${name} is not carried out here.`);
+          own.say(502, `${name} is not carried out here.`);
           return true;
       }
     },
     close() {
-      isOver = true;
-      shut();
+      own.isOver = true;
+      own.shut();
     },
   };
 }

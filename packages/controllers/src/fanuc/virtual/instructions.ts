@@ -11,8 +11,8 @@ import {
   axesOfJoints,
   jointsOfAxes,
 } from "@twincell/core";
-import { RMI_ERROR, rmiJoints, rmiNumber, rmiPart, type RmiPacket } from "../codec-rmi.ts";
-import { askedConfiguration, branchOfConfiguration, jointsIn, JOINTS } from "../configuration.ts";
+import { RMI_ERROR, rmiJoints, rmiNumber, rmiPart, type RmiPacket } from "../codec/rmi.ts";
+import { askedConfiguration, branchOfConfiguration, jointsIn, JOINTS } from "../codec/configuration.ts";
 
 export type Instruction =
   | { readonly kind: "step"; readonly make: (q_rad: Float64Array) => Step }

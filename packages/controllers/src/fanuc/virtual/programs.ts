@@ -1,6 +1,6 @@
 import type { Interpreted, Signals, SignalLine, Step } from "@twincell/core";
 import { textSteps, withLines } from "../../runner/index.ts";
-import { programOf } from "../codec-ftp.ts";
+import { programOf } from "../codec/ftp.ts";
 
 export type Callable =
   | {

@@ -6,14 +6,22 @@ import {
   type Refusal,
   type Robot,
   type Scheduler,
+  type VendorSection,
 } from "@twincell/core";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
+import {
+  DriverStates,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterMotion,
+  type AdapterOrder,
+  type Opened,
+} from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { AXES, e6axis, e6pos, kukaAxes } from "../axes.ts";
-import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec-c3.ts";
-import { krlReal, numberIn, textIn } from "../codec-values.ts";
-import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
-import { isKukaModel } from "../models.ts";
+import { AXES, e6axis, e6pos, kukaAxes } from "../codec/axes.ts";
+import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec/c3.ts";
+import { krlReal, numberIn, textIn } from "../codec/values.ts";
+import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../codec/loop.ts";
+import { isKukaModel } from "../codec/models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
 import { handKrl, programOf, runKrl } from "./text.ts";
@@ -71,189 +79,207 @@ const ON_PATH_S = 0.3;
  * drives off where the cell has wired an output for that, and says nothing to them elsewhere.
  */
 export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, host } = options;
-  const axes = kukaAxes(robot);
-  const port = options.port ?? C3_PORT;
-  const program = options.program ?? LOOP_NAME;
-  const period_s = options.period_s ?? 0.012;
-  const watch_s = options.watch_s ?? 0.5;
-  const gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
-  const lines = [...new Set([...(options.signals ?? []), ...(gripper === "" ? [] : [gripper])])];
-  const names = [...POLLED, ...lines];
-  let client: C3Client | null = null;
-  let state: KukaState | null = null;
-  let stopPolling: (() => void) | null = null;
-  let waiting: Waiting | null = null;
-  let types: readonly number[] = [];
-  let loop: Refusal | null = say.noLoop;
-  let polling = false;
-  let fed_s = 0;
-  let life = 0;
-  let stops = 0;
-  let drives = { on: 0, off: 0 };
-  let text: { stop: () => void } | null = null;
-  /** The last text that was handed over from here: where the link broke it may still be selected, and makes room. */
-  let handed = "";
+  return kukaAdapterOf(new KukaWire(options));
+}
 
-  function settle(outcome: CommandOutcome): void {
-    const ended = waiting;
-    waiting = null;
-    ended?.resolve(outcome);
+class KukaWire extends DriverStates<Waiting> {
+  protected readonly closedBecause = say.closedHere;
+  readonly options: KukaAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly axes: VendorSection | undefined;
+  readonly port: number;
+  readonly program: string;
+  readonly period_s: number;
+  readonly watch_s: number;
+  readonly gripper: string;
+  readonly lines: string[];
+  readonly names: string[];
+  client: C3Client | null = null;
+  state: KukaState | null = null;
+  stopPolling: (() => void) | null = null;
+  types: readonly number[] = [];
+  loop: Refusal | null = say.noLoop;
+  polling = false;
+  fed_s = 0;
+  stops = 0;
+  drives = { on: 0, off: 0 };
+  text: { stop: () => void } | null = null;
+  /** The last text that was handed over from here: where the link broke it may still be selected, and makes room. */
+  handed = "";
+
+  constructor(options: KukaAdapterOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.axes = kukaAxes(this.robot);
+    this.port = this.options.port ?? C3_PORT;
+    this.program = this.options.program ?? LOOP_NAME;
+    this.period_s = this.options.period_s ?? 0.012;
+    this.watch_s = this.options.watch_s ?? 0.5;
+    this.gripper = this.options.gripperOutput === undefined ? "" : `$OUT[${this.options.gripperOutput}]`;
+    this.lines = [...new Set([...(this.options.signals ?? []), ...(this.gripper === "" ? [] : [this.gripper])])];
+    this.names = [...POLLED, ...this.lines];
   }
 
   /** What a state means for the motion under way. */
-  function look(now: KukaState): void {
-    if (!waiting?.taken) return;
-    if (now.done === waiting.number) {
+  look(now: KukaState): void {
+    if (!this.moving?.taken) return;
+    if (now.done === this.moving.number) {
       switch (now.result) {
         case TWC_RESULT.done:
-          settle(DONE);
+          this.settle(DONE);
           return;
         case TWC_RESULT.refused:
-          settle(refused(say.refusedThere));
+          this.settle(refused(say.refusedThere));
           return;
         case TWC_RESULT.silent:
-          settle(stopped(say.linkSilent));
+          this.settle(stopped(say.linkSilent));
           return;
         default:
-          settle(stopped(say.stoppedHere(robot)));
+          this.settle(stopped(say.stoppedHere(this.robot)));
           return;
       }
     }
-    if (now.loopRuns || now.command !== waiting.number) return;
+    if (now.loopRuns || now.command !== this.moving.number) return;
     // Whoever starts the program again must not find the rest of this motion in it.
-    brake(false);
-    settle(
+    this.brake(false);
+    this.settle(
       stopped(now.sample.message === "" ? say.notCarriedOut : { ...say.notCarriedOut, sentence: now.sample.message }),
     );
   }
 
-  function poll(mine: C3Client, now: KukaState, events: AdapterEvents): void {
-    const at_s = scheduler.now_s();
-    if (waiting?.taken && at_s - fed_s >= watch_s / FEEDS - 1e-9 && !mine.isCrowded) {
-      fed_s = at_s;
+  poll(mine: C3Client, now: KukaState, events: AdapterEvents): void {
+    const at_s = this.scheduler.now_s();
+    if (this.moving?.taken && at_s - this.fed_s >= this.watch_s / FEEDS - 1e-9 && !mine.isCrowded) {
+      this.fed_s = at_s;
       void mine.ask({
         kind: "write",
         wide: true,
         name: `$TIMER[${WATCH_TIMER}]`,
-        value: String(-Math.round(1000 * watch_s)),
+        value: String(-Math.round(1000 * this.watch_s)),
       });
     }
-    if (polling || mine.isCrowded) return;
-    polling = true;
-    void mine.ask({ kind: "read-many", names }).then(reply => {
-      polling = false;
-      if (client !== mine || reply?.kind !== "values") return;
-      if (now.take(reply.items, scheduler.now_s()) !== true) return;
-      look(now);
+    if (this.polling || mine.isCrowded) return;
+    this.polling = true;
+    void mine.ask({ kind: "read-many", names: this.names }).then(reply => {
+      this.polling = false;
+      if (this.client !== mine || reply?.kind !== "values") return;
+      if (now.take(reply.items, this.scheduler.now_s()) !== true) return;
+      this.look(now);
       events.sample(now.sample);
     });
   }
 
-  function brake(emergency: boolean): void {
+  brake(emergency: boolean): void {
     const pairs: (readonly [string, string])[] = [[TWC.stop, "TRUE"]];
     if (emergency) pairs.unshift([TWC.lock, "TRUE"]);
-    if (emergency && drives.off > 0) pairs.push([`$OUT[${drives.off}]`, "TRUE"]);
-    void client?.write(pairs);
+    if (emergency && this.drives.off > 0) pairs.push([`$OUT[${this.drives.off}]`, "TRUE"]);
+    void this.client?.write(pairs);
   }
 
-  function close(): void {
-    life++;
-    stopPolling?.();
-    stopPolling = null;
-    client?.close();
-    client = null;
-    polling = false;
-    settle(stopped(say.closedHere));
+  protected release(): void {
+    this.stopPolling?.();
+    this.stopPolling = null;
+    this.client?.close();
+    this.client = null;
+    this.polling = false;
   }
 
-  async function open(events: AdapterEvents): Promise<Opened> {
-    close();
-    const mine = life;
-    const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === life) close();
-      return { kind: "failed", why, again };
-    };
-    if (robot.arm.joints.length !== AXES) return fail(say.otherJoints(robot), false);
-    if (!axes) return fail(say.unknownAxes(robot), false);
-    const connected = await network.connect({ host, port });
+  readonly open = async (events: AdapterEvents): Promise<Opened> => {
+    const isMine = this.connecting();
+    const fail = (why: Refusal, again: boolean): Opened => this.failed(isMine, why, again);
+    if (this.robot.arm.joints.length !== AXES) return fail(say.otherJoints(this.robot), false);
+    if (!this.axes) return fail(say.unknownAxes(this.robot), false);
+    const connected = await this.network.connect({ host: this.host, port: this.port });
     if (connected.kind === "refused") return fail(say.noProxy(connected.sentence), true);
-    if (mine !== life) {
+    if (!isMine()) {
       connected.stream.close();
       return fail(say.closedHere, true);
     }
-    let isOpen = false;
     let brokeBy = "";
-    const own = (client = new C3Client(
+    const own = (this.client = new C3Client(
       connected.stream,
-      scheduler,
+      this.scheduler,
       sentence => {
         brokeBy = sentence;
-        if (client === own) {
-          close();
-          if (isOpen) events.lost(sentence);
+        if (this.client === own) {
+          this.lose(sentence);
         }
       },
       seconds => {
         events.roundTrip(seconds);
       },
     ));
-    const first = await own.ask({ kind: "read-many", names: [...HEAD, ...names] });
+    const first = await own.ask({ kind: "read-many", names: [...HEAD, ...this.names] });
     if (first === null) return fail(say.noProxy(brokeBy === "" ? "The connection was closed." : brokeBy), true);
     if (first.kind !== "values") return fail(say.oldProxy, false);
     const model = textIn(first.items[0]?.value ?? "");
     const version = first.items[1]!;
-    if (options.model === undefined ? !isKukaModel(robot, model) : options.model !== model) {
+    if (this.options.model === undefined ? !isKukaModel(this.robot, model) : this.options.model !== model) {
       // Told twice: a name that was spoilt on its way is no other robot.
       const again = await own.ask({ kind: "read", wide: true, name: "$MODEL_NAME[]" });
       return fail(
-        say.otherRobot(robot, model === "" ? "robot without a name" : model),
+        say.otherRobot(this.robot, model === "" ? "robot without a name" : model),
         again?.kind !== "value" || textIn(again.value) !== model,
       );
     }
-    const now = (state = new KukaState(program, axes, lines, gripper));
+    const now = (this.state = new KukaState(this.program, this.axes, this.lines, this.gripper));
     const wired = (i: number): number => {
       const n = numberIn(first.items[i]?.value ?? "");
       return n > 0 ? n : 0;
     };
-    drives = { on: wired(2), off: wired(3) };
-    if (now.take(first.items.slice(HEAD.length), scheduler.now_s()) !== true) return fail(say.unreadable, true);
-    loop =
+    this.drives = { on: wired(2), off: wired(3) };
+    if (now.take(first.items.slice(HEAD.length), this.scheduler.now_s()) !== true) return fail(say.unreadable, true);
+    this.loop =
       version.error !== 1 ? say.noLoop : version.value === String(LOOP_VERSION) ? null : say.otherLoop(version.value);
     const features = await own.ask({ kind: "features" });
-    types = features?.kind === "features" ? features.types : [];
-    if (mine !== life) return { kind: "failed", why: say.noProxy(brokeBy), again: true };
-    isOpen = true;
-    stopPolling = scheduler.every(period_s, () => {
-      poll(own, now, events);
+    this.types = features?.kind === "features" ? features.types : [];
+    if (!isMine()) return { kind: "failed", why: say.noProxy(brokeBy), again: true };
+    this.stopPolling = this.scheduler.every(this.period_s, () => {
+      this.poll(own, now, events);
     });
-    return { kind: "open" };
-  }
+    return this.ready(events);
+  };
 
-  const pause = (seconds: number): Promise<void> =>
-    new Promise(resolve => {
-      const stop = scheduler.every(seconds, () => {
+  pause(seconds: number): Promise<void> {
+    return new Promise(resolve => {
+      const stop = this.scheduler.every(seconds, () => {
         stop();
         resolve();
       });
     });
+  }
 
-  const hindrance = (): Refusal | null =>
-    loop ?? (!state?.ready ? say.drivesOff : state.loopRuns ? null : say.loopRests(state.programState, state.program));
+  hindrance(): Refusal | null {
+    return (
+      this.loop ??
+      (!this.state?.ready
+        ? say.drivesOff
+        : this.state.loopRuns
+          ? null
+          : say.loopRests(this.state.programState, this.state.program))
+    );
+  }
 
   /** Everything the loop needs for a motion but the number that starts it. */
-  function orders(motion: AdapterMotion): (readonly [string, string])[] {
+  orders(motion: AdapterMotion): (readonly [string, string])[] {
     const percent = (ratio: number): string => String(Math.min(100, Math.max(1, Math.round(100 * ratio))));
     const common: (readonly [string, string])[] = [
       [TWC.acceleration, percent(motion.acceleration)],
-      [TWC.watch, String(Math.round(1000 * watch_s))],
+      [TWC.watch, String(Math.round(1000 * this.watch_s))],
     ];
     if (motion.path === "joints")
       return [
         ...common,
         [TWC.kind, String(TWC_KIND.joints)],
         [TWC.ratio, percent(motion.ratio)],
-        [TWC.axis, e6axis(axesOfJoints(axes!, motion.q_rad, new Float64Array(AXES)), DIGITS)],
+        [TWC.axis, e6axis(axesOfJoints(this.axes!, motion.q_rad, new Float64Array(AXES)), DIGITS)],
       ];
     const path: (readonly [string, string])[] = [
       ...common,
@@ -265,83 +291,90 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       : [...path, [TWC.kind, String(TWC_KIND.arc)], [TWC.via, e6pos(motion.baseFromVia, null, DIGITS)]];
   }
 
-  function cannotSay(order: AdapterOrder): Refusal | null {
-    if (order.kind === "gripper") return gripper === "" ? say.noGripper : null;
+  readonly cannotSay = (order: AdapterOrder): Refusal | null => {
+    if (order.kind === "gripper") return this.gripper === "" ? say.noGripper : null;
     if (order.kind !== "signal") return null;
     const match = OUTPUT.exec(order.signal);
     return match && (match[1] === "OUT") === (typeof order.value === "boolean") ? null : say.noSuchLine(order.signal);
-  }
-  async function move(motion: AdapterMotion): Promise<CommandOutcome> {
-    const own = client;
-    const now = state;
-    const why = hindrance();
+  };
+
+  readonly move = async (motion: AdapterMotion): Promise<CommandOutcome> => {
+    const own = this.client;
+    const now = this.state;
+    const why = this.hindrance();
     if (!own || !now || why) return refused(why ?? say.closedHere);
-    return new Promise(resolve => {
-      const mine: Waiting = { number: (now.command + 1) & 0x7fffffff, resolve, taken: false, cancelled: false };
-      waiting = mine;
+    const make = (resolve: Waiting["resolve"]): Waiting => ({
+      number: (now.command + 1) & 0x7fffffff,
+      resolve,
+      taken: false,
+      cancelled: false,
+    });
+    return this.execute(make, mine => {
       void (async () => {
         // The number that starts the motion goes out only when everything else has arrived: an old target is never
         // driven to.
-        const taken = await own.write(orders(motion));
-        if (waiting !== mine) return;
+        const taken = await own.write(this.orders(motion));
+        if (this.moving !== mine) return;
         if (mine.cancelled || !taken) {
-          settle(mine.cancelled ? stopped(say.stoppedHere(robot)) : refused(say.notTaken));
+          this.settle(mine.cancelled ? stopped(say.stoppedHere(this.robot)) : refused(say.notTaken));
           return;
         }
         mine.taken = true;
-        fed_s = scheduler.now_s();
-        if (!(await own.write([[TWC.command, String(mine.number)]])) && waiting === mine) {
-          brake(false);
-          settle(stopped(say.notTaken));
+        this.fed_s = this.scheduler.now_s();
+        if (!(await own.write([[TWC.command, String(mine.number)]])) && this.moving === mine) {
+          this.brake(false);
+          this.settle(stopped(say.notTaken));
         }
       })();
     });
-  }
+  };
 
   /**
    * A person's word that it may go on: what is left of a motion is taken back, the lock opened, messages confirmed, the
    * program started.
    */
-  async function reset(wanted: () => boolean): Promise<CommandOutcome> {
-    const own = client;
-    const now = state;
+  readonly reset = async (wanted: () => boolean): Promise<CommandOutcome> => {
+    const own = this.client;
+    const now = this.state;
     if (!own || !now) return refused(say.closedHere);
-    if (loop) return refused(loop);
+    if (this.loop) return refused(this.loop);
     if (!(await own.write([[TWC.stop, "TRUE"]]))) return refused(say.notTaken);
-    if (!wanted()) return refused(stoppedInReset(robot));
-    if (!now.ready) await switchOn(own, now, wanted);
-    if (!wanted()) return refused(stoppedInReset(robot));
+    if (!wanted()) return refused(stoppedInReset(this.robot));
+    if (!now.ready) await this.switchOn(own, now, wanted);
+    if (!wanted()) return refused(stoppedInReset(this.robot));
     if (!now.ready) return refused(say.drivesOff);
-    if (types.includes(C3_TYPE.confirmAll)) await own.order({ kind: "confirm-all" });
-    const started = now.loopRuns ? DONE : await startLoop(own, now);
+    if (this.types.includes(C3_TYPE.confirmAll)) await own.order({ kind: "confirm-all" });
+    const started = now.loopRuns ? DONE : await this.startLoop(own, now);
     if (started.kind !== "done") return started;
-    if (!wanted()) return refused(stoppedInReset(robot));
+    if (!wanted()) return refused(stoppedInReset(this.robot));
     return (await own.write([[TWC.lock, "FALSE"]])) ? DONE : refused(say.notTaken);
-  }
+  };
+
   /** Over the wires of the cell, where there are any: heard in EXT only. */
-  async function switchOn(own: C3Client, now: KukaState, wanted: () => boolean): Promise<void> {
-    if (drives.on === 0 || now.mode !== "EX") return;
+  async switchOn(own: C3Client, now: KukaState, wanted: () => boolean): Promise<void> {
+    if (this.drives.on === 0 || now.mode !== "EX") return;
     const out = (n: number, value: string): (readonly [string, string])[] => (n > 0 ? [[`$OUT[${n}]`, value]] : []);
-    const until_s = scheduler.now_s() + DRIVES_S;
+    const until_s = this.scheduler.now_s() + DRIVES_S;
     // What still brakes does not hear it: it is said until the drives are on.
     for (
-      await own.write(out(drives.off, "FALSE"));
-      !now.ready && wanted() && client === own && scheduler.now_s() < until_s;
-      await pause(LOOK_S)
+      await own.write(out(this.drives.off, "FALSE"));
+      !now.ready && wanted() && this.client === own && this.scheduler.now_s() < until_s;
+      await this.pause(LOOK_S)
     ) {
-      await own.write([...out(drives.on, "FALSE"), ...out(drives.on, "TRUE")]);
+      await own.write([...out(this.drives.on, "FALSE"), ...out(this.drives.on, "TRUE")]);
     }
-    await own.write(out(drives.on, "FALSE"));
+    await own.write(out(this.drives.on, "FALSE"));
   }
-  async function startLoop(own: C3Client, now: KukaState): Promise<CommandOutcome> {
-    if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
+
+  async startLoop(own: C3Client, now: KukaState): Promise<CommandOutcome> {
+    if (!this.types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
     if (now.sample.mode === "manual") return refused(say.notAtPendant);
-    const ours = now.program === program;
-    const left = now.programState === "P_STOP" && handed !== "" && now.program === handed;
+    const ours = now.program === this.program;
+    const left = now.programState === "P_STOP" && this.handed !== "" && now.program === this.handed;
     const free = left || now.programState === "P_FREE" || now.programState === "P_END";
     if (!ours && !free) return refused(say.loopRests(now.programState, now.program));
     if (left) await own.order({ kind: "control", command: C3_COMMAND.cancel, interpreter: 1 });
-    if (!ours && !(await own.order({ kind: "select", run: false, name: program, parameters: "", force: false })))
+    if (!ours && !(await own.order({ kind: "select", run: false, name: this.program, parameters: "", force: false })))
       return refused(say.startRefused(now.programState));
     // From its first line: what it was stopped in is forgotten, and its first motion is none.
     else if (ours) await own.order({ kind: "control", command: C3_COMMAND.reset, interpreter: 1 });
@@ -349,75 +382,85 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
     if (!(await start())) return refused(say.startRefused(now.programState));
     if (now.mode === "EX") return DONE;
     // Outside EXT the controller rests on the path and asks for the start key once more.
-    await pause(ON_PATH_S);
+    await this.pause(ON_PATH_S);
     return now.loopRuns || (await start()) ? DONE : refused(say.startRefused(now.programState));
   }
 
   /** Our own program has its place again; it moves nothing by itself. */
-  const back = async (own: C3Client): Promise<void> => {
-    if (client === own && loop === null)
-      await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
-  };
-  async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
-    const own = client;
-    const now = state;
-    const before = stops;
+  async back(own: C3Client): Promise<void> {
+    if (this.client === own && this.loop === null)
+      await own.order({ kind: "select", run: true, name: this.program, parameters: "", force: true });
+  }
+
+  readonly handText = async (files: readonly EmittedFile[]): Promise<UploadedProgram> => {
+    const own = this.client;
+    const now = this.state;
+    const before = this.stops;
     if (!own || !now) return { kind: "refused", why: say.closedHere };
-    if (!types.includes(C3_TYPE.fileWrite)) return { kind: "refused", why: say.noFiles };
-    if (!types.includes(C3_TYPE.control)) return { kind: "refused", why: say.noProgramControl };
-    handed = programOf(files);
+    if (!this.types.includes(C3_TYPE.fileWrite)) return { kind: "refused", why: say.noFiles };
+    if (!this.types.includes(C3_TYPE.control)) return { kind: "refused", why: say.noProgramControl };
+    this.handed = programOf(files);
     const selected = await handKrl(files, own);
     if (selected.kind === "refused") {
-      await back(own);
+      await this.back(own);
       return selected;
     }
     return {
       kind: "handed",
-      drop() {
-        void back(own);
+      drop: () => {
+        void this.back(own);
       },
-      async start() {
-        if (client !== own || stops !== before) {
-          await back(own);
-          return stopped(client === own ? say.stoppedHere(robot) : say.closedHere);
+      start: async () => {
+        if (this.client !== own || this.stops !== before) {
+          await this.back(own);
+          return stopped(this.client === own ? say.stoppedHere(this.robot) : say.closedHere);
         }
-        const run = runKrl(selected.name, own, now, scheduler, robot);
-        text = run;
+        const run = runKrl(selected.name, own, now, this.scheduler, this.robot);
+        this.text = run;
         const outcome = await run.outcome;
-        text = null;
-        await back(own);
+        this.text = null;
+        await this.back(own);
         return outcome;
       },
     };
-  }
+  };
+}
 
+function kukaAdapterOf(wire: KukaWire): ControllerAdapter {
   return {
     brand: "KUKA",
-    robot,
-    stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
-    watchdog: { kind: "robot", within_s: watch_s },
-    open,
-    close,
-    cannotSay,
-    move,
-    reset,
+    robot: wire.robot,
+    stale_s: wire.options.stale_s ?? Math.max(STALE_S, 4 * wire.period_s),
+    watchdog: { kind: "robot", within_s: wire.watch_s },
+    open: wire.open,
+    close: () => {
+      wire.close();
+    },
+    cannotSay: wire.cannotSay,
+    move: wire.move,
+    reset: wire.reset,
     stop(emergency) {
-      stops++;
-      if (waiting && !waiting.taken) waiting.cancelled = true;
-      brake(emergency);
-      text?.stop();
+      wire.stops++;
+      if (wire.moving && !wire.moving.taken) wire.moving.cancelled = true;
+      wire.brake(emergency);
+      wire.text?.stop();
       // A program of somebody else's does not listen to our variables.
-      if (!text && state?.programState === "P_ACTIVE" && !state.loopRuns && types.includes(C3_TYPE.control))
-        void client?.order({ kind: "control", command: C3_COMMAND.stop, interpreter: 1 });
+      if (
+        !wire.text &&
+        wire.state?.programState === "P_ACTIVE" &&
+        !wire.state.loopRuns &&
+        wire.types.includes(C3_TYPE.control)
+      )
+        void wire.client?.order({ kind: "control", command: C3_COMMAND.stop, interpreter: 1 });
     },
     setOverride(ratio) {
-      void client?.ask({ kind: "write", wide: true, name: "$OV_PRO", value: String(Math.round(100 * ratio)) });
+      void wire.client?.ask({ kind: "write", wide: true, name: "$OV_PRO", value: String(Math.round(100 * ratio)) });
       return null;
     },
     setSignal(signal, value) {
-      const why = cannotSay({ kind: "signal", signal, value });
+      const why = wire.cannotSay({ kind: "signal", signal, value });
       if (why) return why;
-      void client?.ask({
+      void wire.client?.ask({
         kind: "write",
         wide: true,
         name: signal,
@@ -426,14 +469,14 @@ export function createKukaAdapter(options: KukaAdapterOptions): ControllerAdapte
       return null;
     },
     setGripper(closed) {
-      const why = cannotSay({ kind: "gripper", closed });
+      const why = wire.cannotSay({ kind: "gripper", closed });
       if (why) return why;
-      void client?.ask({ kind: "write", wide: true, name: gripper, value: closed ? "TRUE" : "FALSE" });
+      void wire.client?.ask({ kind: "write", wide: true, name: wire.gripper, value: closed ? "TRUE" : "FALSE" });
       return null;
     },
-    handText,
+    handText: wire.handText,
     async runText(files: readonly EmittedFile[]) {
-      const ready = await handText(files);
+      const ready = await wire.handText(files);
       return ready.kind === "refused" ? ready : ready.start();
     },
   };

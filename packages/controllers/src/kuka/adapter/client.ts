@@ -1,8 +1,8 @@
 import type { Scheduler } from "@twincell/core";
 import type { ByteStream } from "../../transport/index.ts";
-import { C3Reader, C3Writer } from "../codec-c3.ts";
-import { readC3Reply, type C3Reply } from "../codec-c3-replies.ts";
-import { writeC3Request, type C3Request } from "../codec-c3-requests.ts";
+import { C3Reader, C3Writer } from "../codec/c3.ts";
+import { readC3Reply, type C3Reply } from "../codec/c3-replies.ts";
+import { writeC3Request, type C3Request } from "../codec/c3-requests.ts";
 
 type Question = Exclude<C3Request, { readonly kind: "malformed" }>;
 interface Asked {

@@ -1,3 +1,4 @@
+import { stopped } from "../../outcomes.ts";
 import {
   Stepper,
   type CommandOutcome,
@@ -6,18 +7,22 @@ import {
   type Refusal,
   axesOfJoints,
   jointsOfAxes,
+  type Robot,
+  type Scheduler,
+  type VendorSection,
 } from "@twincell/core";
 import {
+  Execution,
   stepOfMotion,
   type ControllerAdapter,
   type AdapterEvents,
   type AdapterOrder,
   type Opened,
 } from "../../driver/index.ts";
-import type { DatagramSocket } from "../../transport/index.ts";
-import { AXES, kukaAxes } from "../axes.ts";
-import { readRsi, rsiAxes, rsiWriter, type RsiConfig } from "../codec-rsi.ts";
-import { RSI_NAME } from "../loop.ts";
+import type { DatagramSocket, Network } from "../../transport/index.ts";
+import { AXES, kukaAxes } from "../codec/axes.ts";
+import { readRsi, rsiAxes, rsiWriter, type RsiConfig, type RsiValue } from "../codec/rsi.ts";
+import { RSI_NAME } from "../codec/loop.ts";
 import { createKukaAdapter, type KukaAdapterOptions } from "./adapter.ts";
 import * as say from "./words.ts";
 
@@ -35,7 +40,6 @@ interface Streaming {
   stepper: Stepper;
   readonly target_rad: Float64Array;
   readonly resolve: (outcome: CommandOutcome) => void;
-  stopping: boolean;
   resting: number;
   again: number;
 }
@@ -61,27 +65,34 @@ const STANDS_DEG = 2e-5;
  * variables, as without RSI. When answers stay away the controller itself ends RSI and stops the robot.
  */
 export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, config } = options;
-  const cycle_s = options.cycle_s ?? 0.004;
-  const base = createKukaAdapter({ ...options, program: RSI_NAME });
-  const axes = kukaAxes(robot);
-  const write = rsiWriter("Sen", config.senType, config.receive, options.decimals ?? 6);
-  const a_deg = new Float64Array(AXES);
-  const before_deg = new Float64Array(AXES);
-  const now_deg = new Float64Array(AXES);
-  const next_deg = new Float64Array(AXES);
-  const commanded_rad = new Float64Array(AXES);
-  const next_rad = new Float64Array(AXES);
-  const values = new Map<string, number>();
-  const KEYS = Array.from({ length: AXES }, (_, i) => `AKorr.A${i + 1}`);
-  let socket: DatagramSocket | null = null;
-  let listener: AdapterEvents | null = null;
-  let streaming: Streaming | null = null;
-  let override = 1;
-  let ipoc = NaN;
-  let heard_s = -Infinity;
-  let texts = 0;
-  const lent: Lent = {
+  return kukaRsiAdapterOf(new RsiWire(options));
+}
+
+class RsiWire extends Execution<Streaming> {
+  readonly options: KukaRsiAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly config: RsiConfig;
+  readonly cycle_s: number;
+  readonly base: ControllerAdapter;
+  readonly axes: VendorSection | undefined;
+  readonly write: (values: ReadonlyMap<string, RsiValue>, ipoc: number) => string;
+  readonly a_deg = new Float64Array(AXES);
+  readonly before_deg = new Float64Array(AXES);
+  readonly now_deg = new Float64Array(AXES);
+  readonly next_deg = new Float64Array(AXES);
+  readonly commanded_rad = new Float64Array(AXES);
+  readonly next_rad = new Float64Array(AXES);
+  readonly values = new Map<string, number>();
+  readonly KEYS = Array.from({ length: AXES }, (_, i) => `AKorr.A${i + 1}`);
+  socket: DatagramSocket | null = null;
+  listener: AdapterEvents | null = null;
+  override = 1;
+  ipoc = NaN;
+  heard_s = -Infinity;
+  texts = 0;
+  readonly lent: Lent = {
     sequence: 0,
     time_s: 0,
     q_rad: new Float64Array(AXES),
@@ -93,50 +104,60 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
     message: "",
   };
 
-  const runs = (): boolean => scheduler.now_s() - heard_s <= SILENT_S;
-  function settle(outcome: CommandOutcome): void {
-    const ended = streaming;
-    streaming = null;
-    ended?.resolve(outcome);
+  constructor(options: KukaRsiAdapterOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.config = this.options.config;
+    this.cycle_s = this.options.cycle_s ?? 0.004;
+    this.base = createKukaAdapter({ ...this.options, program: RSI_NAME });
+    this.axes = kukaAxes(this.robot);
+    this.write = rsiWriter("Sen", this.config.senType, this.config.receive, this.options.decimals ?? 6);
+  }
+
+  runs(): boolean {
+    return this.scheduler.now_s() - this.heard_s <= SILENT_S;
   }
 
   /** The increments of the next cycle [°] into `values`. */
-  function correct(): void {
-    for (const key of KEYS) values.set(key, 0);
-    const mine = streaming;
+  correct(): void {
+    for (const key of this.KEYS) this.values.set(key, 0);
+    const mine = this.moving;
     if (!mine) return;
-    const state = mine.stepper.advance(cycle_s, override, next_rad);
-    axesOfJoints(axes!, commanded_rad, now_deg);
-    axesOfJoints(axes!, next_rad, next_deg);
-    commanded_rad.set(next_rad);
-    for (let i = 0; i < AXES; i++) values.set(KEYS[i]!, next_deg[i]! - now_deg[i]!);
+    const state = mine.stepper.advance(this.cycle_s, this.override, this.next_rad);
+    axesOfJoints(this.axes!, this.commanded_rad, this.now_deg);
+    axesOfJoints(this.axes!, this.next_rad, this.next_deg);
+    this.commanded_rad.set(this.next_rad);
+    for (let i = 0; i < AXES; i++) this.values.set(this.KEYS[i]!, this.next_deg[i]! - this.now_deg[i]!);
     if (state.kind === "running") return;
     if (state.kind === "fault" && state.fault) {
-      settle({ kind: "stopped", why: state.fault });
+      this.settle({ kind: "stopped", why: state.fault });
       return;
     }
     mine.resting++;
-    if (mine.stopping) {
-      if (mine.resting >= UNDER_WAY) settle({ kind: "stopped", why: say.stoppedHere(robot) });
+    if (this.ending) {
+      if (mine.resting >= UNDER_WAY) this.settle({ kind: "stopped", why: say.stoppedHere(this.robot) });
       return;
     }
-    axesOfJoints(axes!, mine.target_rad, next_deg);
-    const off_deg = next_deg.reduce((most, value, i) => Math.max(most, Math.abs(value - a_deg[i]!)), 0);
+    axesOfJoints(this.axes!, mine.target_rad, this.next_deg);
+    const off_deg = this.next_deg.reduce((most, value, i) => Math.max(most, Math.abs(value - this.a_deg[i]!)), 0);
     // The last increments are still under way in the first telegrams.
     if (mine.resting < UNDER_WAY) return;
     if (off_deg <= NEAR_DEG) {
-      settle({ kind: "done" });
+      this.settle({ kind: "done" });
       return;
     }
     if (mine.again++ >= MOST_AGAIN) {
-      settle({ kind: "stopped", why: say.notReached(off_deg) });
+      this.settle({ kind: "stopped", why: say.notReached(off_deg) });
       return;
     }
     // Increments were lost on the way: what is missing is driven as a motion of its own.
     mine.resting = 0;
-    jointsOfAxes(axes!, a_deg, commanded_rad);
+    jointsOfAxes(this.axes!, this.a_deg, this.commanded_rad);
     mine.stepper = new Stepper(
-      robot,
+      this.robot,
       NOTHING,
       [
         {
@@ -148,155 +169,160 @@ export function createKukaRsiAdapter(options: KukaRsiAdapterOptions): Controller
           blend_m: 0,
         },
       ],
-      commanded_rad,
+      this.commanded_rad,
     );
   }
 
-  function telegram(bytes: Uint8Array, from: Parameters<Parameters<DatagramSocket["onDatagram"]>[0]>[1]): void {
+  readonly telegram = (bytes: Uint8Array, from: Parameters<Parameters<DatagramSocket["onDatagram"]>[0]>[1]): void => {
     let text = "";
     for (const byte of bytes) text += String.fromCharCode(byte);
     const read = readRsi(text, "Rob");
-    if (read.kind !== "telegram" || read.type !== "KUKA" || !listener) return;
-    const elapsed = Math.round((read.ipoc - ipoc) / (1000 * cycle_s));
+    if (read.kind !== "telegram" || read.type !== "KUKA" || !this.listener) return;
+    const elapsed = Math.round((read.ipoc - this.ipoc) / (1000 * this.cycle_s));
     // Sent twice, or overtaken by a later one; a clock that jumped is a controller that began anew.
     if (elapsed <= 0 && elapsed > -1000) return;
-    before_deg.set(a_deg);
-    if (!rsiAxes(read.values, "AIPos", a_deg)) return;
-    const first = !runs();
-    ipoc = read.ipoc;
-    heard_s = scheduler.now_s();
-    if (!config.onlySend) {
-      correct();
-      socket?.send(
-        Uint8Array.from(write(values, ipoc), sign => sign.charCodeAt(0) & 255),
+    this.before_deg.set(this.a_deg);
+    if (!rsiAxes(read.values, "AIPos", this.a_deg)) return;
+    const first = !this.runs();
+    this.ipoc = read.ipoc;
+    this.heard_s = this.scheduler.now_s();
+    if (!this.config.onlySend) {
+      this.correct();
+      this.socket?.send(
+        Uint8Array.from(this.write(this.values, this.ipoc), sign => sign.charCodeAt(0) & 255),
         from,
       );
     }
-    lent.sequence += first || !(elapsed > 0) ? 1 : elapsed;
-    lent.time_s = ipoc / 1000;
-    jointsOfAxes(axes!, a_deg, lent.q_rad);
-    lent.override = override;
-    lent.moving =
-      a_deg.some((value, i) => Math.abs(value - before_deg[i]!) > STANDS_DEG) ||
-      KEYS.some(key => Math.abs(values.get(key) ?? 0) > STANDS_DEG);
-    listener.sample(lent);
-  }
+    this.lent.sequence += first || !(elapsed > 0) ? 1 : elapsed;
+    this.lent.time_s = this.ipoc / 1000;
+    jointsOfAxes(this.axes!, this.a_deg, this.lent.q_rad);
+    this.lent.override = this.override;
+    this.lent.moving =
+      this.a_deg.some((value, i) => Math.abs(value - this.before_deg[i]!) > STANDS_DEG) ||
+      this.KEYS.some(key => Math.abs(this.values.get(key) ?? 0) > STANDS_DEG);
+    this.listener.sample(this.lent);
+  };
 
-  async function open(events: AdapterEvents): Promise<Opened> {
-    close();
-    const bound = await network.bind({ host: config.ip, port: config.port });
+  readonly open = async (events: AdapterEvents): Promise<Opened> => {
+    this.close();
+    const bound = await this.network.bind({ host: this.config.ip, port: this.config.port });
     if (bound.kind === "taken") return { kind: "failed", again: true, why: say.noProxy(bound.sentence) };
-    socket = bound.socket;
-    const opened = await base.open({
+    this.socket = bound.socket;
+    const opened = await this.base.open({
       roundTrip(seconds) {
         events.roundTrip(seconds);
       },
-      lost(sentence) {
-        close();
+      lost: sentence => {
+        this.close();
         events.lost(sentence);
       },
-      sample(slow) {
-        lent.mode = slow.mode;
-        lent.safety = slow.safety;
-        lent.message = slow.message;
-        lent.gripperClosed = slow.gripperClosed;
-        if (slow.signals) lent.signals = slow.signals;
-        if (runs()) return;
+      sample: slow => {
+        this.lent.mode = slow.mode;
+        this.lent.safety = slow.safety;
+        this.lent.message = slow.message;
+        this.lent.gripperClosed = slow.gripperClosed;
+        if (slow.signals) this.lent.signals = slow.signals;
+        if (this.runs()) return;
         // While RSI rests the variables speak alone.
-        if (streaming)
-          settle({
+        if (this.moving)
+          this.settle({
             kind: "stopped",
             why: slow.message === "" ? say.rsiEnded : { ...say.rsiEnded, sentence: slow.message },
           });
-        lent.sequence++;
-        lent.time_s = slow.time_s;
-        lent.moving = slow.moving;
-        lent.override = override;
-        lent.q_rad.set(slow.q_rad);
-        events.sample(lent);
+        this.lent.sequence++;
+        this.lent.time_s = slow.time_s;
+        this.lent.moving = slow.moving;
+        this.lent.override = this.override;
+        this.lent.q_rad.set(slow.q_rad);
+        events.sample(this.lent);
       },
     });
     if (opened.kind === "failed") {
-      close();
+      this.close();
       return opened;
     }
-    listener = events;
-    bound.socket.onDatagram(telegram);
+    this.listener = events;
+    bound.socket.onDatagram(this.telegram);
     return opened;
-  }
-  function close(): void {
-    listener = null;
-    base.close();
-    socket?.close();
-    socket = null;
-    heard_s = -Infinity;
-    ipoc = NaN;
-    settle({ kind: "stopped", why: say.closedHere });
-  }
+  };
 
-  const { runText, handText } = base;
-  async function counted(running: Promise<CommandOutcome>): Promise<CommandOutcome> {
-    texts++;
+  readonly close = (): void => {
+    this.listener = null;
+    this.base.close();
+    this.socket?.close();
+    this.socket = null;
+    this.heard_s = -Infinity;
+    this.ipoc = NaN;
+    this.settle({ kind: "stopped", why: say.closedHere });
+  };
+
+  async counted(running: Promise<CommandOutcome>): Promise<CommandOutcome> {
+    this.texts++;
     const outcome = await running;
-    texts--;
+    this.texts--;
     return outcome;
   }
 
-  const cannotSay = (order: AdapterOrder): Refusal | null =>
+  readonly cannotSay = (order: AdapterOrder): Refusal | null =>
     order.kind === "signal" || order.kind === "gripper"
-      ? base.cannotSay(order)
-      : config.onlySend
+      ? this.base.cannotSay(order)
+      : this.config.onlySend
         ? say.onlySends
         : null;
+}
 
+function kukaRsiAdapterOf(wire: RsiWire): ControllerAdapter {
+  const { runText, handText } = wire.base;
   return {
     brand: "KUKA",
-    robot,
-    stale_s: base.stale_s,
-    open,
-    close,
-    watchdog: config.onlySend
+    robot: wire.robot,
+    stale_s: wire.base.stale_s,
+    open: wire.open,
+    close: wire.close,
+    watchdog: wire.config.onlySend
       ? { kind: "none", because: "RSI only sends; nothing from here moves the robot." }
-      : { kind: "robot", within_s: (options.timeout ?? 100) * cycle_s },
-    cannotSay,
+      : { kind: "robot", within_s: (wire.options.timeout ?? 100) * wire.cycle_s },
+    cannotSay: wire.cannotSay,
     move(motion) {
-      const why = cannotSay(motion);
+      const why = wire.cannotSay(motion);
       if (why) return Promise.resolve({ kind: "refused", why });
-      if (!runs()) return Promise.resolve({ kind: "refused", why: say.rsiRests });
-      commanded_rad.set(lent.q_rad);
-      return new Promise(resolve => {
-        streaming = {
-          stepper: new Stepper(robot, NOTHING, [stepOfMotion(motion)], commanded_rad),
+      if (!wire.runs()) return Promise.resolve({ kind: "refused", why: say.rsiRests });
+      wire.commanded_rad.set(wire.lent.q_rad);
+      return wire.execute(
+        resolve => ({
+          stepper: new Stepper(wire.robot, NOTHING, [stepOfMotion(motion)], wire.commanded_rad),
           target_rad: motion.q_rad.slice(),
           resolve,
-          stopping: false,
           resting: 0,
           again: 0,
-        };
-      });
+        }),
+        () => {
+          /* The next telegram is answered with the first of its path. */
+        },
+      );
     },
     stop(emergency) {
-      if (streaming && !streaming.stopping) {
-        streaming.stopping = true;
-        streaming.stepper.stop(true);
+      if (wire.moving && !wire.ending) {
+        wire.ending = stopped(say.stoppedHere(wire.robot));
+        wire.moving.stepper.stop(true);
       }
       // A text is run by the controller: what is stopped here would not reach it.
-      if (emergency || texts > 0) base.stop(emergency);
+      if (emergency || wire.texts > 0) wire.base.stop(emergency);
     },
     // RSI knows no override: the path made here follows ours.
     setOverride(ratio) {
-      override = ratio;
+      wire.override = ratio;
       return null;
     },
-    reset: wanted => base.reset(wanted),
-    setSignal: (signal, value) => base.setSignal(signal, value),
-    setGripper: closed => base.setGripper(closed),
-    ...(runText ? { runText: files => counted(runText.call(base, files)) } : {}),
+    reset: wanted => wire.base.reset(wanted),
+    setSignal: (signal, value) => wire.base.setSignal(signal, value),
+    setGripper: closed => wire.base.setGripper(closed),
+    ...(runText ? { runText: files => wire.counted(runText.call(wire.base, files)) } : {}),
     ...(handText
       ? {
           async handText(files: readonly EmittedFile[]) {
-            const handed = await handText.call(base, files);
-            return handed.kind === "handed" ? { ...handed, start: () => counted(handed.start()) } : handed;
+            const handed = await handText.call(wire.base, files);
+            return handed.kind === "handed" ? { ...handed, start: () => wire.counted(handed.start()) } : handed;
           },
         }
       : {}),

@@ -5,10 +5,10 @@ import {
   type SafetyState,
   type AxisCounting,
 } from "@twincell/core";
-import { AXES, AXIS_NAMES } from "../axes.ts";
-import type { C3Item } from "../codec-c3-replies.ts";
-import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
-import { TWC } from "../loop.ts";
+import { AXES, AXIS_NAMES } from "../codec/axes.ts";
+import type { C3Item } from "../codec/c3-replies.ts";
+import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec/values.ts";
+import { TWC } from "../codec/loop.ts";
 
 /**
  * Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The

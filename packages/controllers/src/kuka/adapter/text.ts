@@ -1,6 +1,6 @@
 import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
-import { C3_COMMAND } from "../codec-c3.ts";
-import { OVERWRITE } from "../codec-c3-requests.ts";
+import { C3_COMMAND } from "../codec/c3.ts";
+import { OVERWRITE } from "../codec/c3-requests.ts";
 import type { C3Client } from "./client.ts";
 import type { KukaState } from "./state.ts";
 import * as say from "./words.ts";

@@ -1,6 +1,6 @@
 import type { Refusal, Robot } from "@twincell/core";
-import { AXES } from "../axes.ts";
-import { LOOP_NAME, LOOP_VERSION } from "../loop.ts";
+import { AXES } from "../codec/axes.ts";
+import { LOOP_NAME, LOOP_VERSION } from "../codec/loop.ts";
 
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 

@@ -2,7 +2,7 @@ import { flangePose, seededRandom, manualScheduler } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { memoryNetwork, type ByteStream } from "../../transport/index.ts";
 import { createVirtualKuka, startLoop, type VirtualKukaOptions } from "../index.ts";
-import { LOOP_FILES, LOOP_GLOBALS } from "../loop.ts";
+import { LOOP_FILES, LOOP_GLOBALS } from "../codec/loop.ts";
 import { HOST, interpretMoves, KR6 } from "../testing/bench.ts";
 
 async function bench(options: Partial<VirtualKukaOptions> = {}) {

@@ -1,12 +1,12 @@
-import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler, AxisCounting } from "@twincell/core";
 import { slowed } from "../../guard/index.ts";
 import type { DatagramSocket, Listening, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { kukaAxes } from "../axes.ts";
-import { C3_PORT } from "../codec-c3.ts";
-import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec-discovery.ts";
-import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../loop.ts";
-import { kukaModel } from "../models.ts";
+import { kukaAxes } from "../codec/axes.ts";
+import { C3_PORT } from "../codec/c3.ts";
+import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec/discovery.ts";
+import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../codec/loop.ts";
+import { kukaModel } from "../codec/models.ts";
 import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
 import type { Builtin } from "./builtin.ts";
@@ -101,167 +101,229 @@ export interface VirtualKuka {
  * UDP 6999 and 7000. Refuses an arm whose axes are not known (RangeError).
  */
 export async function createVirtualKuka(options: VirtualKukaOptions): Promise<VirtualKuka> {
-  const { robot, scheduler, network, host } = options;
+  const { robot } = options;
   const axes = kukaAxes(robot);
   if (!axes) throw new RangeError(`How a KUKA controller counts the axes of ${robot.name} is not known.`);
-  const log =
-    options.log ??
-    ((): void => {
-      /* Nobody asked for it. */
+  return openKuka(options, axes);
+}
+
+function openKuka(options: VirtualKukaOptions, axes: AxisCounting): Promise<VirtualKuka> {
+  return new KukaControllerState(options, axes).open();
+}
+
+class KukaControllerState {
+  readonly options: VirtualKukaOptions;
+  readonly axes: AxisCounting;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly log: (sentence: string) => void;
+  readonly arm: VirtualController;
+  readonly faults = noFaults();
+  readonly now: Now;
+  booted_s = 0;
+  last_s = 0;
+  readonly timers: Timers;
+  readonly globals: Globals;
+  readonly machine: Machine;
+  readonly builtins: Map<string, Builtin>;
+  readonly rsi: RsiRun | null;
+  programs!: Programs;
+  identity!: { model: string; serial: string; name: string };
+  proxy!: Map<string, string>;
+  wiring!: { readonly drivesOn: number; readonly drivesOff: number } | null;
+  variables!: Variables;
+  server!: C3Server;
+  readonly sockets: DatagramSocket[] = [];
+
+  constructor(options: VirtualKukaOptions, axes: AxisCounting) {
+    this.options = options;
+    this.axes = axes;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.log =
+      this.options.log ??
+      ((): void => {
+        /* Nobody asked for it. */
+      });
+    this.arm = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      cycle_s: this.options.cycle_s ?? 0.004,
+      name: `Virtual ${this.robot.name}`,
+      ...(this.options.start_rad ? { start_rad: this.options.start_rad } : {}),
+      ...(this.options.maxSpeed === undefined ? {} : { maxSpeed: this.options.maxSpeed }),
     });
-  const arm = createVirtualController({
-    robot,
-    scheduler,
-    cycle_s: options.cycle_s ?? 0.004,
-    name: `Virtual ${robot.name}`,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
-    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
-  });
-  const faults = noFaults();
-  const now: Now = { q_rad: arm.jointAngles(), time_s: 0 };
-  let booted_s = 0;
-  let last_s = 0;
-  const timers = new Timers(() => 1000 * now.time_s);
-  const globals = new Globals([...LOOP_GLOBALS, ...(options.globals ?? [])], options.digits);
-  const machine = new Machine(arm, options.mode ?? "EX", () => {
-    programs.interrupted();
-  });
-  const slow = (step: MoveStep): MoveStep =>
-    machine.mode === "T1" ? slowed(robot, step, arm.jointAngles(), T1_MPS) : step;
-  const builtins = new Map<string, Builtin>([[LOOP_NAME, new LoopRun(globals, timers, arm, machine, axes, slow)]]);
-  const rsi = options.rsi
-    ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi)
-    : null;
-  if (rsi) {
-    builtins.set(RSI_NAME, rsi);
-    const why = await rsi.open();
-    if (why) log(why);
+    this.now = { q_rad: this.arm.jointAngles(), time_s: 0 };
+    this.timers = new Timers(() => 1000 * this.now.time_s);
+    this.globals = new Globals([...LOOP_GLOBALS, ...(this.options.globals ?? [])], this.options.digits);
+    this.machine = new Machine(this.arm, this.options.mode ?? "EX", () => {
+      this.programs.interrupted();
+    });
+    this.builtins = new Map<string, Builtin>([
+      [LOOP_NAME, new LoopRun(this.globals, this.timers, this.arm, this.machine, this.axes, this.slow)],
+    ]);
+    this.rsi = this.options.rsi
+      ? new RsiRun(
+          {
+            robot: this.robot,
+            axes: this.axes,
+            arm: this.arm,
+            machine: this.machine,
+            scheduler: this.scheduler,
+            network: this.network,
+            host: this.host,
+            faults: this.faults,
+            globals: this.globals,
+            log: this.log,
+          },
+          this.options.rsi,
+        )
+      : null;
   }
-  const programs = new Programs(arm, machine, builtins, robot, options.interpret);
-  const identity = {
-    model: options.model ?? kukaModel(robot),
-    serial: options.serial ?? "800001",
-    name: options.name ?? "VIRTUAL",
-  };
-  const proxy = new Map([
-    ["PING", "PONG"],
-    ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"],
-    ["@PROXY_VERSION", "1.5.0"],
-    ["@PROXY_HOSTNAME", identity.name],
-    ["@PROXY_ADDRESS", host],
-    ["@PROXY_ENABLED", "TRUE"],
-    [
-      "@PROXY_FEATURES",
-      Array.from({ length: C3_TYPES.at(-1)! + 1 }, (_, i) =>
-        C3_TYPES.includes(C3_TYPES.at(-1)! - i) ? "1" : "0",
-      ).join(""),
-    ],
-  ]);
-  const wiring = options.wiring === undefined ? EXAMPLE_WIRING : options.wiring;
-  const wire = (): void => {
-    globals.set(TWC.drivesOn, wiring?.drivesOn ?? 0);
-    globals.set(TWC.drivesOff, wiring?.drivesOff ?? 0);
-  };
-  wire();
-  /** Automatic External: heard in EXT only, but off is off. */
-  const onOutput = (n: number, value: boolean): void => {
-    if (!value) return;
-    if (n === wiring?.drivesOff) machine.setDrives(false);
-    if (n === wiring?.drivesOn && machine.mode === "EX") machine.setDrives(true);
-  };
-  const variables = kukaVariables({
-    robot,
-    axes,
-    identity,
-    machine,
-    programs,
-    globals,
-    timers,
-    arm,
-    now,
-    proxy,
-    onOutput,
-    ...(options.digits === undefined ? {} : { digits: options.digits }),
-  });
 
-  arm.onSample(sample => {
-    last_s = sample.time_s;
-    if (!faults.frozen) {
-      now.q_rad.set(sample.q_rad);
-      now.time_s = sample.time_s - booted_s;
+  async open(): Promise<VirtualKuka> {
+    if (this.rsi) {
+      this.builtins.set(RSI_NAME, this.rsi);
+      const why = await this.rsi.open();
+      if (why) this.log(why);
     }
-    machine.cycle();
-    programs.cycle(sample.step);
-  });
-
-  const server: C3Server = await serveC3({
-    network,
-    host,
-    port: options.port ?? C3_PORT,
-    scheduler,
-    faults,
-    variables,
-    machine,
-    programs,
-    hostName: identity.name,
-    log,
-  });
-  const sockets: DatagramSocket[] = [];
-  if (server.listening.kind === "listening") {
-    const { port } = server.listening.address;
-    proxy.set("@PROXY_PORT", String(port));
-    await answerDiscovery(
-      network,
-      host,
-      port,
-      () => hereIAmText(identity),
-      socket => {
-        sockets.push(socket);
-      },
-    );
+    this.programs = new Programs(this.arm, this.machine, this.builtins, this.robot, this.options.interpret);
+    this.identity = {
+      model: this.options.model ?? kukaModel(this.robot),
+      serial: this.options.serial ?? "800001",
+      name: this.options.name ?? "VIRTUAL",
+    };
+    this.proxy = new Map([
+      ["PING", "PONG"],
+      ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"],
+      ["@PROXY_VERSION", "1.5.0"],
+      ["@PROXY_HOSTNAME", this.identity.name],
+      ["@PROXY_ADDRESS", this.host],
+      ["@PROXY_ENABLED", "TRUE"],
+      [
+        "@PROXY_FEATURES",
+        Array.from({ length: C3_TYPES.at(-1)! + 1 }, (_, i) =>
+          C3_TYPES.includes(C3_TYPES.at(-1)! - i) ? "1" : "0",
+        ).join(""),
+      ],
+    ]);
+    this.wiring = this.options.wiring === undefined ? EXAMPLE_WIRING : this.options.wiring;
+    this.wire();
+    this.variables = kukaVariables({
+      robot: this.robot,
+      axes: this.axes,
+      identity: this.identity,
+      machine: this.machine,
+      programs: this.programs,
+      globals: this.globals,
+      timers: this.timers,
+      arm: this.arm,
+      now: this.now,
+      proxy: this.proxy,
+      onOutput: this.onOutput,
+      ...(this.options.digits === undefined ? {} : { digits: this.options.digits }),
+    });
+    this.arm.onSample(sample => {
+      this.last_s = sample.time_s;
+      if (!this.faults.frozen) {
+        this.now.q_rad.set(sample.q_rad);
+        this.now.time_s = sample.time_s - this.booted_s;
+      }
+      this.machine.cycle();
+      this.programs.cycle(sample.step);
+    });
+    this.server = await serveC3({
+      network: this.network,
+      host: this.host,
+      port: this.options.port ?? C3_PORT,
+      scheduler: this.scheduler,
+      faults: this.faults,
+      variables: this.variables,
+      machine: this.machine,
+      programs: this.programs,
+      hostName: this.identity.name,
+      log: this.log,
+    });
+    if (this.server.listening.kind === "listening") {
+      const { port } = this.server.listening.address;
+      this.proxy.set("@PROXY_PORT", String(port));
+      await answerDiscovery(
+        this.network,
+        this.host,
+        port,
+        () => hereIAmText(this.identity),
+        socket => {
+          this.sockets.push(socket);
+        },
+      );
+    }
+    return virtualKukaOf(this);
   }
 
+  readonly slow = (step: MoveStep): MoveStep =>
+    this.machine.mode === "T1" ? slowed(this.robot, step, this.arm.jointAngles(), T1_MPS) : step;
+
+  wire(): void {
+    this.globals.set(TWC.drivesOn, this.wiring?.drivesOn ?? 0);
+    this.globals.set(TWC.drivesOff, this.wiring?.drivesOff ?? 0);
+  }
+
+  /** Automatic External: heard in EXT only, but off is off. */
+  readonly onOutput = (n: number, value: boolean): void => {
+    if (!value) return;
+    if (n === this.wiring?.drivesOff) this.machine.setDrives(false);
+    if (n === this.wiring?.drivesOn && this.machine.mode === "EX") this.machine.setDrives(true);
+  };
+}
+
+function virtualKukaOf(own: KukaControllerState): VirtualKuka {
   return {
-    robot,
-    arm,
-    faults,
-    variables,
-    listening: server.listening,
+    robot: own.robot,
+    arm: own.arm,
+    faults: own.faults,
+    variables: own.variables,
+    listening: own.server.listening,
     get mode() {
-      return machine.mode;
+      return own.machine.mode;
     },
-    program: programs,
-    machine,
+    program: own.programs,
+    machine: own.machine,
     get messages() {
-      return machine.messages;
+      return own.machine.messages;
     },
     get drivesOn() {
-      return machine.drivesOn;
+      return own.machine.drivesOn;
     },
     get rsiDelay() {
-      return rsi ? rsi.delay : null;
+      return own.rsi ? own.rsi.delay : null;
     },
     pendant: {
       setMode(mode) {
-        machine.setMode(mode);
+        own.machine.setMode(mode);
       },
       setEnabling(pressed) {
-        machine.setEnabling(pressed);
+        own.machine.setEnabling(pressed);
       },
-      setDrives: on => machine.setDrives(on),
-      select: name => programs.select(name),
-      start: () => programs.start(),
+      setDrives: on => own.machine.setDrives(on),
+      select: name => own.programs.select(name),
+      start: () => own.programs.start(),
       stop() {
-        programs.hold();
+        own.programs.hold();
       },
-      reset: () => programs.reset(),
-      cancel: () => programs.cancel(),
+      reset: () => own.programs.reset(),
+      cancel: () => own.programs.cancel(),
       confirm() {
-        machine.confirm();
+        own.machine.confirm();
       },
-      setOverride: percent => machine.setOverride(percent),
+      setOverride: percent => own.machine.setOverride(percent),
       async jog(q_rad, ratio = 1) {
-        const why = machine.isManual ? machine.hindrance : `The mode is ${machine.mode}; axes are jogged in T1 and T2.`;
+        const why = own.machine.isManual
+          ? own.machine.hindrance
+          : `The mode is ${own.machine.mode}; axes are jogged in T1 and T2.`;
         if (why)
           return {
             kind: "refused",
@@ -279,36 +341,36 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
           speed: { ratio },
           blend_m: 0,
         };
-        return arm.run([slow(step)], { tools: {}, frames: {} });
+        return own.arm.run([own.slow(step)], { tools: {}, frames: {} });
       },
       setEmergencyStop(pressed) {
-        machine.setEmergency(pressed);
+        own.machine.setEmergency(pressed);
       },
       setGuardOpen(open) {
-        machine.setSafety(!open);
+        own.machine.setSafety(!open);
       },
       fail(because) {
-        machine.stop(2, because);
+        own.machine.stop(2, because);
       },
       setInput(n, value) {
-        arm.signals.write(`$IN[${n}]`, value);
+        own.arm.signals.write(`$IN[${n}]`, value);
       },
-      write: (name, text) => programs.write(name, text),
+      write: (name, text) => own.programs.write(name, text),
     },
     reboot() {
-      server.cut();
-      machine.stop(1, "");
-      programs.cancel();
-      booted_s = last_s;
-      now.time_s = 0;
-      for (const [name, , value] of LOOP_GLOBALS) globals.write(name, value);
-      wire();
+      own.server.cut();
+      own.machine.stop(1, "");
+      own.programs.cancel();
+      own.booted_s = own.last_s;
+      own.now.time_s = 0;
+      for (const [name, , value] of LOOP_GLOBALS) own.globals.write(name, value);
+      own.wire();
     },
     close() {
-      server.close();
-      rsi?.close();
-      for (const socket of sockets) socket.close();
-      arm.close();
+      own.server.close();
+      own.rsi?.close();
+      for (const socket of own.sockets) socket.close();
+      own.arm.close();
     },
   };
 }

@@ -1,4 +1,4 @@
-import { krlBool, krlReal, krlStruct, readKrlValue, REAL_DIGITS, type KrlValue } from "../codec-values.ts";
+import { krlBool, krlReal, krlStruct, readKrlValue, REAL_DIGITS, type KrlValue } from "../codec/values.ts";
 
 export type GlobalType = "INT" | "REAL" | "BOOL" | "E6AXIS" | "E6POS";
 interface Entry {

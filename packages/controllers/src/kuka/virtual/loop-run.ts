@@ -1,8 +1,8 @@
 import { jointsOfAxes, type MoveStep, type Pose, type AxisCounting } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, AXIS_NAMES, poseIn } from "../axes.ts";
-import { partsIn } from "../codec-values.ts";
-import { TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
+import { AXES, AXIS_NAMES, poseIn } from "../codec/axes.ts";
+import { partsIn } from "../codec/values.ts";
+import { TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../codec/loop.ts";
 import type { Builtin } from "./builtin.ts";
 import type { Globals, Timers } from "./globals.ts";
 import type { Machine } from "./machine.ts";

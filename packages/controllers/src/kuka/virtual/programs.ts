@@ -1,7 +1,7 @@
 import type { CommandOutcome, Interpreted, Robot, Step } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
 
-import { LOOP_FILES } from "../loop.ts";
+import { LOOP_FILES } from "../codec/loop.ts";
 import type { Builtin } from "./builtin.ts";
 import { Job } from "./job.ts";
 import { BY_MACHINE } from "./loop-run.ts";

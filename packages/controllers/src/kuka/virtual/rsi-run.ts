@@ -17,10 +17,10 @@ import {
 } from "@twincell/core";
 import type { DatagramSocket, Network } from "../../transport/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, AXIS_NAMES } from "../axes.ts";
-import { readRsi, rsiKeys, rsiNumber, rsiWriter, type RsiConfig, type RsiValue } from "../codec-rsi.ts";
+import { AXES, AXIS_NAMES } from "../codec/axes.ts";
+import { readRsi, rsiKeys, rsiNumber, rsiWriter, type RsiConfig, type RsiValue } from "../codec/rsi.ts";
 import type { Builtin } from "./builtin.ts";
-import { TWC } from "../loop.ts";
+import { TWC } from "../codec/loop.ts";
 import type { KukaFaults } from "./faults.ts";
 import type { Globals } from "./globals.ts";
 import { T1_MPS, type Machine } from "./machine.ts";

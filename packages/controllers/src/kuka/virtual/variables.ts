@@ -1,7 +1,7 @@
 import { distance, flangePose, type Robot, type Vector3, type AxisCounting, axesOfJoints } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { AXES, e6axis, flangeText } from "../axes.ts";
-import { boolIn, krlBool, krlReal, krlText, numberIn, REAL_DIGITS } from "../codec-values.ts";
+import { AXES, e6axis, flangeText } from "../codec/axes.ts";
+import { boolIn, krlBool, krlReal, krlText, numberIn, REAL_DIGITS } from "../codec/values.ts";
 import type { Globals, Timers } from "./globals.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";

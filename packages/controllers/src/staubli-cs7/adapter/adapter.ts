@@ -7,10 +7,18 @@ import {
   type Scheduler,
   axesOfJoints,
   jointsOfAxes,
+  type VendorSection,
 } from "@twincell/core";
 import { stoppedInReset } from "../../refusals.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
+import {
+  DriverStates,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterMotion,
+  type AdapterOrder,
+  type Opened,
+} from "../../driver/index.ts";
 import type { Network } from "../../transport/index.ts";
 import {
   errorOf,
@@ -24,7 +32,7 @@ import {
   TASK,
   TWC,
   JOINTS,
-} from "../codec.ts";
+} from "../codec/monitor.ts";
 import { openLine, type Line } from "./line.ts";
 import {
   beyond,
@@ -63,7 +71,6 @@ interface Moving {
   begun: boolean;
   over: boolean;
   held: boolean;
-  ending: CommandOutcome | null;
   looks: number;
   stood_s: number;
 }
@@ -94,105 +101,115 @@ function cannotSay(order: AdapterOrder): Refusal | null {
  * (PANIC). A hold brakes the motion and says it again.
  */
 export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
-  const stale_s =
-    options.stale_s ??
-    Math.max(
-      STALE_S,
-      4 * (options.period_s ?? PERIOD_S),
-      options.baud === undefined ? 0 : (MISSED * POLL_LETTERS * LETTER_BITS) / options.baud,
-    );
-  const { robot, scheduler, network, host } = options;
-  const joints = sectionForDriver(robot, "staubli-cs7");
-  const period_s = options.period_s ?? PERIOD_S;
-  const j_deg = new Float64Array(JOINTS).fill(NaN);
-  const values = new Map<string, boolean | number>();
-  const known = new Map<string, number>();
-  const lent: Lent = {
-    sequence: 0,
-    time_s: 0,
-    q_rad: new Float64Array(JOINTS),
-    moving: false,
-    mode: "remote",
-    safety: "normal",
-    override: 1,
-    gripperClosed: false,
-    message: "",
-    signals: values,
-  };
-  let line: Line | null = null;
-  let events: AdapterEvents | null = null;
-  let stopPolling: (() => void) | null = null;
-  let life = 0;
-  let polling = false;
-  let state: number = STATE.powerOff;
-  let motion = 0;
-  let done = 0;
-  let next = 1;
-  let begun_s = 0;
-  let moving: Moving | null = null;
-  let ratio = 1;
-  let left = false;
-  let locked = false;
-  let resetting = false;
-  let aside = "";
+  return cs7AdapterOf(new Cs7Wire(options));
+}
 
-  const settle = (outcome: CommandOutcome): void => {
-    const ended = moving;
-    moving = null;
-    ended?.resolve(outcome);
-  };
-  function close(): void {
-    life++;
-    left ||= moving !== null;
-    stopPolling?.();
-    stopPolling = null;
-    line?.close();
-    line = null;
-    events = null;
-    polling = false;
-    known.clear();
-    j_deg.fill(NaN);
-    settle(stopped(closedHere));
+class Cs7Wire extends DriverStates<Moving> {
+  protected readonly closedBecause = closedHere;
+  readonly options: Cs7FaceOptions;
+  readonly stale_s: number;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly joints: VendorSection | undefined;
+  readonly period_s: number;
+  readonly j_deg = new Float64Array(JOINTS).fill(NaN);
+  readonly values = new Map<string, boolean | number>();
+  readonly known = new Map<string, number>();
+  readonly lent: Lent;
+  line: Line | null = null;
+  stopPolling: (() => void) | null = null;
+  polling = false;
+  state: number = STATE.powerOff;
+  motion = 0;
+  done = 0;
+  next = 1;
+  begun_s = 0;
+  ratio = 1;
+  left = false;
+  locked = false;
+  resetting = false;
+  aside = "";
+
+  constructor(options: Cs7FaceOptions) {
+    super();
+    this.options = options;
+    this.stale_s =
+      this.options.stale_s ??
+      Math.max(
+        STALE_S,
+        4 * (this.options.period_s ?? PERIOD_S),
+        this.options.baud === undefined ? 0 : (MISSED * POLL_LETTERS * LETTER_BITS) / this.options.baud,
+      );
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.joints = sectionForDriver(this.robot, "staubli-cs7");
+    this.period_s = this.options.period_s ?? PERIOD_S;
+    this.lent = {
+      sequence: 0,
+      time_s: 0,
+      q_rad: new Float64Array(JOINTS),
+      moving: false,
+      mode: "remote",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      message: "",
+      signals: this.values,
+    };
   }
-  function lose(sentence: string): void {
-    const told = events;
-    close();
-    told?.lost(sentence);
+
+  protected release(): void {
+    this.left ||= this.moving !== null;
+    this.stopPolling?.();
+    this.stopPolling = null;
+    this.line?.close();
+    this.line = null;
+    this.polling = false;
+    this.known.clear();
+    this.j_deg.fill(NaN);
   }
-  const halt = (): void => {
-    void line?.ask("DO BRAKE");
-    void line?.ask(`ABORT ${TASK}`);
-  };
+
+  halt(): void {
+    void this.line?.ask("DO BRAKE");
+    void this.line?.ask(`ABORT ${TASK}`);
+  }
 
   /** Null, or the error that one of the lines was answered with. */
-  async function tell(commands: readonly string[]): Promise<string | null> {
-    for (const lines of await Promise.all(commands.map(command => line?.ask(command) ?? Promise.resolve(null)))) {
+  async tell(commands: readonly string[]): Promise<string | null> {
+    for (const lines of await Promise.all(commands.map(command => this.line?.ask(command) ?? Promise.resolve(null)))) {
       if (!lines) return "*no answer*";
       const error = errorOf(lines.slice(1));
       if (error !== "") return error;
     }
     return null;
   }
+
   /** Reals are said again only when they change: a slow line has other things to carry. */
-  const reals = (wanted: readonly (readonly [string, number])[]): string[] =>
-    wanted
-      .filter(([name, value]) => known.get(name) !== value)
+  reals(wanted: readonly (readonly [string, number])[]): string[] {
+    return wanted
+      .filter(([name, value]) => this.known.get(name) !== value)
       .map(([name, value]) => {
-        known.set(name, value);
+        this.known.set(name, value);
         return `DO ${name} = ${value}`;
       });
-  async function say(at: Moving): Promise<void> {
-    const mine = life;
+  }
+
+  async say(at: Moving): Promise<void> {
+    const isMine = this.current();
     const { motion: wanted } = at;
     const isLine = wanted.path !== "joints";
-    const shown = axesOfJoints(joints!, wanted.q_rad, new Float64Array(JOINTS));
-    at.id = next++;
+    const shown = axesOfJoints(this.joints!, wanted.q_rad, new Float64Array(JOINTS));
+    at.id = this.next++;
     at.begun = at.over = at.held = false;
-    aside = "";
+    this.aside = "";
     const speed = isLine ? 1000 * wanted.speed_mps : Math.max(0.01, 100 * wanted.ratio);
     const error =
-      (await tell([
-        ...reals([
+      (await this.tell([
+        ...this.reals([
           [TWC.line, isLine ? -1 : 0],
           [TWC.speed, Number(speed.toFixed(3))],
           [TWC.accel, Math.max(1, Math.round(100 * wanted.acceleration))],
@@ -200,224 +217,229 @@ export function createCs7Adapter(options: Cs7FaceOptions): ControllerAdapter {
         ]),
         `DO SET ${POINT} = ${pointText(shown)}`,
       ])) ??
-      (mine === life && moving === at && !at.ending && !at.held ? await tell([`EXECUTE ${TASK} ${PROGRAM}`]) : null);
-    if (mine !== life || moving !== at) return;
+      (isMine() && this.moving === at && !this.ending && !at.held
+        ? await this.tell([`EXECUTE ${TASK} ${PROGRAM}`])
+        : null);
+    if (!isMine() || this.moving !== at) return;
     if (error !== null) {
-      known.clear();
-      settle(refused(saidNo(error)));
+      this.known.clear();
+      this.settle(refused(saidNo(error)));
       return;
     }
     at.begun = true;
-    at.stood_s = scheduler.now_s();
+    at.stood_s = this.scheduler.now_s();
     // A stop that came while the lines were on their way may have come before the motion.
-    if (at.ending || at.held) halt();
+    if (this.ending || at.held) this.halt();
   }
-  function end(at: Moving, outcome: CommandOutcome): void {
-    at.ending = outcome;
+
+  end(at: Moving, outcome: CommandOutcome): void {
+    this.ending = outcome;
     at.looks = 0;
-    halt();
+    this.halt();
   }
 
   /** Where the motion under way is, with every state that comes. */
-  function look(stands: boolean): void {
-    const at = moving;
-    const t = scheduler.now_s();
+  look(stands: boolean): void {
+    const at = this.moving;
+    const t = this.scheduler.now_s();
     if (!at) return;
     if (!stands) {
       at.stood_s = t;
       at.looks = 0;
       return;
     }
-    if (at.ending) {
-      if (++at.looks > 1) settle(at.ending);
+    if (this.ending) {
+      if (++at.looks > 1) this.settle(this.ending);
       return;
     }
     if (at.held) {
-      if (ratio > 0 && ++at.looks > 1) void say(at);
+      if (this.ratio > 0 && ++at.looks > 1) void this.say(at);
       return;
     }
     if (!at.begun) return;
-    if (at.over) settle(DONE);
-    else if (motion !== 1 && t - at.stood_s > SHORT_S) end(at, stopped(stoodShort(aside)));
+    if (at.over) this.settle(DONE);
+    else if (this.motion !== 1 && t - at.stood_s > SHORT_S) this.end(at, stopped(stoodShort(this.aside)));
   }
-  function understand(where: readonly string[], listed: readonly string[]): boolean {
+
+  understand(where: readonly string[], listed: readonly string[]): boolean {
     const at_deg = readWhere(where);
     const [first, second, last] = readValues(listed);
     if (at_deg?.length !== JOINTS || first === undefined || second === undefined || last === undefined) return false;
     let stands = true;
     for (let i = 0; i < JOINTS; i++) {
-      stands &&= Math.abs(at_deg[i]! - j_deg[i]!) < STANDS_DEG;
-      j_deg[i] = at_deg[i]!;
+      stands &&= Math.abs(at_deg[i]! - this.j_deg[i]!) < STANDS_DEG;
+      this.j_deg[i] = at_deg[i]!;
     }
-    state = first;
-    motion = second;
-    done = last;
-    if (resetting && state === STATE.program) {
-      resetting = locked = false;
+    this.state = first;
+    this.motion = second;
+    this.done = last;
+    if (this.resetting && this.state === STATE.program) {
+      this.resetting = this.locked = false;
     }
-    const words = stateWords(state);
-    if (moving && !moving.ending && words !== "") end(moving, stopped(taken(words)));
-    if (moving?.begun && done === moving.id) moving.over = true;
-    look(stands);
-    jointsOfAxes(joints!, j_deg, lent.q_rad);
-    lent.sequence++;
-    lent.time_s = scheduler.now_s() - begun_s;
-    lent.mode = state === STATE.manual ? "manual" : "remote";
-    lent.safety = locked
+    const words = stateWords(this.state);
+    if (this.moving && this.phase === "executing" && words !== "") this.end(this.moving, stopped(taken(words)));
+    if (this.moving?.begun && this.done === this.moving.id) this.moving.over = true;
+    this.look(stands);
+    jointsOfAxes(this.joints!, this.j_deg, this.lent.q_rad);
+    this.lent.sequence++;
+    this.lent.time_s = this.scheduler.now_s() - this.begun_s;
+    this.lent.mode = this.state === STATE.manual ? "manual" : "remote";
+    this.lent.safety = this.locked
       ? "emergency-stop"
-      : state === STATE.program || state === STATE.manual
+      : this.state === STATE.program || this.state === STATE.manual
         ? "normal"
         : "protective-stop";
-    lent.message = words;
-    lent.moving = !stands || (moving !== null && !moving.held && !moving.ending);
+    this.lent.message = words;
+    this.lent.moving = !stands || (this.moving !== null && !this.moving.held && this.phase === "executing");
     return true;
   }
-  function poll(mine: number): void {
-    if ((line?.waited_s ?? 0) > PATIENCE_S) {
-      lose(`A command was not answered within ${PATIENCE_S} s.`);
+
+  poll(isMine: () => boolean): void {
+    if ((this.line?.waited_s ?? 0) > PATIENCE_S) {
+      this.lose(`A command was not answered within ${PATIENCE_S} s.`);
       return;
     }
-    if (polling) return;
-    polling = true;
+    if (this.polling) return;
+    this.polling = true;
     // What is listed is from before the joints: an end that is told was reached in them.
-    void Promise.all([line?.ask(QUESTION) ?? null, line?.ask("WHERE") ?? null]).then(([listed, where]) => {
-      if (mine !== life) return;
-      polling = false;
-      if (listed && where && understand(where, listed)) events?.sample(lent);
+    void Promise.all([this.line?.ask(QUESTION) ?? null, this.line?.ask("WHERE") ?? null]).then(([listed, where]) => {
+      if (!isMine()) return;
+      this.polling = false;
+      if (listed && where && this.understand(where, listed)) this.events?.sample(this.lent);
     });
   }
 
-  async function open(to: AdapterEvents): Promise<Opened> {
-    close();
-    const mine = life;
-    const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === life) close();
-      return { kind: "failed", why, again };
-    };
-    if (robot.arm.joints.length !== JOINTS) return fail(otherCount(robot, JOINTS), false);
-    if (!joints) return fail(unknownJoints(robot), false);
-    const connected = await network.connect({ host, port: options.port ?? LINE_PORT });
+  readonly open = async (to: AdapterEvents): Promise<Opened> => {
+    const isMine = this.connecting();
+    const fail = (why: Refusal, again: boolean): Opened => this.failed(isMine, why, again);
+    if (this.robot.arm.joints.length !== JOINTS) return fail(otherCount(this.robot, JOINTS), false);
+    if (!this.joints) return fail(unknownJoints(this.robot), false);
+    const connected = await this.network.connect({ host: this.host, port: this.options.port ?? LINE_PORT });
     if (connected.kind === "refused") return fail(notReached(connected.sentence), true);
-    if (mine !== life) {
+    if (!isMine()) {
       connected.stream.close();
       return fail(closedHere, true);
     }
-    const own = openLine(connected.stream, scheduler, {
-      roundTrip(seconds) {
-        events?.roundTrip(seconds);
+    const own = openLine(connected.stream, this.scheduler, {
+      roundTrip: seconds => {
+        this.events?.roundTrip(seconds);
       },
-      aside(lines) {
+      aside: lines => {
         const error = errorOf(lines);
-        if (error !== "") aside = error;
+        if (error !== "") this.aside = error;
       },
-      lost(sentence) {
-        if (mine === life) lose(sentence);
+      lost: sentence => {
+        if (isMine()) this.lose(sentence);
       },
     });
-    line = own;
+    this.line = own;
     let late = false;
-    const stop = scheduler.every(PATIENCE_S, () => {
+    const stop = this.scheduler.every(PATIENCE_S, () => {
       stop();
       late = true;
       own.close();
     });
     // What was on its way when the line broke is not to go on; what others started is theirs.
-    if (left) halt();
-    left = false;
-    await tell([`DO ${TWC.done} = 0`]);
+    if (this.left) this.halt();
+    this.left = false;
+    await this.tell([`DO ${TWC.done} = 0`]);
     const [listed, where] = await Promise.all([own.ask(QUESTION), own.ask("WHERE")]);
     stop();
-    if (mine !== life && !late) return { kind: "failed", why: closedHere, again: true };
+    if (!isMine() && !late) return { kind: "failed", why: closedHere, again: true };
     if (!listed || !where) return fail(saysNothing(PATIENCE_S), true);
     const count = readWhere(where)?.length ?? 0;
     if (count !== JOINTS)
-      return count === 0 ? fail(saysNothing(PATIENCE_S), true) : fail(otherCount(robot, count), false);
-    begun_s = scheduler.now_s();
-    if (!understand(where, listed)) return fail(saysNothing(PATIENCE_S), true);
-    const limits = robot.arm.joints;
+      return count === 0 ? fail(saysNothing(PATIENCE_S), true) : fail(otherCount(this.robot, count), false);
+    this.begun_s = this.scheduler.now_s();
+    if (!this.understand(where, listed)) return fail(saysNothing(PATIENCE_S), true);
+    const limits = this.robot.arm.joints;
     const odd = limits.findIndex(
       ({ limits: { lower_rad, upper_rad } }, i) =>
-        lent.q_rad[i]! < lower_rad - BEYOND_RAD || lent.q_rad[i]! > upper_rad + BEYOND_RAD,
+        this.lent.q_rad[i]! < lower_rad - BEYOND_RAD || this.lent.q_rad[i]! > upper_rad + BEYOND_RAD,
     );
-    if (odd >= 0) return fail(beyond(robot, odd + 1, lent.q_rad[odd]!), false);
-    await tell([`SPEED ${Math.max(1, Math.round(100 * ratio))}`]);
-    if (mine !== life) return { kind: "failed", why: closedHere, again: true };
-    events = to;
-    stopPolling = scheduler.every(period_s, () => {
-      poll(mine);
+    if (odd >= 0) return fail(beyond(this.robot, odd + 1, this.lent.q_rad[odd]!), false);
+    await this.tell([`SPEED ${Math.max(1, Math.round(100 * this.ratio))}`]);
+    if (!isMine()) return { kind: "failed", why: closedHere, again: true };
+    this.stopPolling = this.scheduler.every(this.period_s, () => {
+      this.poll(isMine);
     });
-    return { kind: "open" };
-  }
+    return this.ready(to);
+  };
+}
 
+function cs7AdapterOf(wire: Cs7Wire): ControllerAdapter {
   return {
     brand: "Stäubli CS7",
-    robot,
-    stale_s,
-    open,
-    close,
+    robot: wire.robot,
+    stale_s: wire.stale_s,
+    open: wire.open,
+    close: () => {
+      wire.close();
+    },
     watchdog: {
       kind: "none",
-      because: `The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused.${stale_s > STALE_S ? ` Over this slow line a break is noticed after ${stale_s.toFixed(1)} s and not within 100 ms.` : ""}`,
+      because: `The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused.${wire.stale_s > STALE_S ? ` Over this slow line a break is noticed after ${wire.stale_s.toFixed(1)} s and not within 100 ms.` : ""}`,
     },
     cannotSay,
     move(wanted) {
-      if (!line) return Promise.resolve(refused(closedHere));
+      if (!wire.line) return Promise.resolve(refused(closedHere));
       const why = cannotSay(wanted);
       if (why) return Promise.resolve(refused(why));
-      return new Promise(resolve => {
-        moving = {
+      return wire.execute(
+        resolve => ({
           motion: wanted,
           resolve,
           id: 0,
           begun: false,
           over: false,
-          held: ratio === 0,
-          ending: null,
+          held: wire.ratio === 0,
           looks: 0,
-          stood_s: scheduler.now_s(),
-        };
-        if (ratio > 0) void say(moving);
-      });
+          stood_s: wire.scheduler.now_s(),
+        }),
+        moving => {
+          if (wire.ratio > 0) void wire.say(moving);
+        },
+      );
     },
     stop(emergency) {
       if (emergency) {
-        locked = true;
-        resetting = false;
-        void line?.ask("PANIC");
+        wire.locked = true;
+        wire.resetting = false;
+        void wire.line?.ask("PANIC");
       }
-      if (moving) end(moving, stopped(wasStopped(robot)));
-      else halt();
+      if (wire.moving) wire.end(wire.moving, stopped(wasStopped(wire.robot)));
+      else wire.halt();
     },
     setOverride(to) {
-      if (to === ratio) return null;
-      ratio = lent.override = to;
-      if (to > 0) void line?.ask(`SPEED ${Math.max(1, Math.round(100 * to))}`);
-      else if (moving && !moving.ending) {
-        moving.held = true;
-        moving.looks = 0;
-        halt();
+      if (to === wire.ratio) return null;
+      wire.ratio = wire.lent.override = to;
+      if (to > 0) void wire.line?.ask(`SPEED ${Math.max(1, Math.round(100 * to))}`);
+      else if (wire.moving && wire.phase === "executing") {
+        wire.moving.held = true;
+        wire.moving.looks = 0;
+        wire.halt();
       }
       return null;
     },
     async reset(wanted) {
-      if (state === STATE.notCalibrated || state === STATE.fatal || state === STATE.manual)
-        return refused(noReset(stateWords(state)));
-      const error = await tell(["ENABLE POWER"]);
+      if (wire.state === STATE.notCalibrated || wire.state === STATE.fatal || wire.state === STATE.manual)
+        return refused(noReset(stateWords(wire.state)));
+      const error = await wire.tell(["ENABLE POWER"]);
       if (error !== null) return refused(noReset(`The controller refused: ${error}`));
-      if (!wanted()) return refused(stoppedInReset(robot));
-      resetting = true;
+      if (!wanted()) return refused(stoppedInReset(wire.robot));
+      wire.resetting = true;
       return DONE;
     },
     setSignal(signal, value) {
       const why = cannotSay({ kind: "signal", signal, value });
       if (why) return why;
-      void line?.ask(`SIGNAL ${value ? "" : "-"}${OUTPUT.exec(signal)![1]}`);
-      values.set(signal, value);
+      void wire.line?.ask(`SIGNAL ${value ? "" : "-"}${OUTPUT.exec(signal)![1]}`);
+      wire.values.set(signal, value);
       return null;
     },
     setGripper(closed) {
-      void line?.ask(closed ? "DO CLOSEI" : "DO OPENI");
-      lent.gripperClosed = closed;
+      void wire.line?.ask(closed ? "DO CLOSEI" : "DO OPENI");
+      wire.lent.gripperClosed = closed;
       return null;
     },
   };

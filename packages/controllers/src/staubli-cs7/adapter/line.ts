@@ -1,6 +1,6 @@
 import type { Scheduler } from "@twincell/core";
 import type { ByteStream } from "../../transport/index.ts";
-import { commandBytes, MonitorReader } from "../codec.ts";
+import { commandBytes, MonitorReader } from "../codec/monitor.ts";
 
 interface Asked {
   readonly command: string;

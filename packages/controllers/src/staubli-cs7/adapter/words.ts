@@ -1,6 +1,6 @@
 import type { Refusal, Robot } from "@twincell/core";
 import { inDegrees } from "../../refusals.ts";
-import { PROGRAM, STATE } from "../codec.ts";
+import { PROGRAM, STATE } from "../codec/monitor.ts";
 
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 

@@ -1,3 +1,5 @@
+import type { Listening } from "../../transport/port.ts";
+import type { FaultyLine } from "../../transport/faulty.ts";
 import {
   sectionForDriver,
   type CommandOutcome,
@@ -5,11 +7,12 @@ import {
   type MoveStep,
   type Robot,
   type Scheduler,
+  type VendorSection,
 } from "@twincell/core";
 import { slowed } from "../../guard/index.ts";
 import { faultyLine, noLineFaults, type ByteStream, type LineFaults, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { isText, LINE_PORT, LONGEST, textBytes, JOINTS } from "../codec.ts";
+import { isText, LINE_PORT, LONGEST, textBytes, JOINTS } from "../codec/monitor.ts";
 import { Machine } from "./machine.ts";
 import { createMonitor, type Said } from "./monitor.ts";
 import { Programs } from "./programs.ts";
@@ -73,199 +76,241 @@ const URGENT = /^\s*(PANIC|ABORT|DO\s+BRAKE)\b/i;
 
 /** A CS7 of numbers behind the raw line of its monitor: one terminal, echo, prompt, programs in a task beside it. */
 export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7Started> {
-  const { robot, scheduler, network, host, interpret } = options;
+  const { robot } = options;
   const joints = sectionForDriver(robot, "staubli-cs7");
-  const log =
-    options.log ??
-    ((): void => {
-      /* Nobody asked for it. */
-    });
-  if (!joints || robot.arm.joints.length !== JOINTS)
-    return { kind: "taken", sentence: `How V+ counts the joints of ${robot.name} is not known.` };
-  const arm = createVirtualController({
-    robot,
-    scheduler,
-    name: `Virtual ${robot.name}`,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
-    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
-  });
-  const machine = new Machine(arm);
-  const faults = noLineFaults();
-  const now_rad = arm.jointAngles();
-  const queue: string[] = [];
-  let terminal: ByteStream | null = null;
-  let line = faultyLine(faults, scheduler, 1);
-  let seed = 1;
-  let typed = "";
-  let asks: Said["asks"];
-  let blocked = false;
-  let booting = false;
-  let blinkedFor_s = NaN;
+  return !joints || robot.arm.joints.length !== JOINTS
+    ? { kind: "taken", sentence: `How V+ counts the joints of ${robot.name} is not known.` }
+    : openCs7(options, joints);
+}
 
-  function out(text: string): void {
-    const to = terminal;
+function openCs7(options: VirtualCs7Options, joints: VendorSection): Promise<Cs7Started> {
+  return new Cs7ControllerState(options, joints).open();
+}
+
+class Cs7ControllerState {
+  readonly options: VirtualCs7Options;
+  readonly joints: VendorSection;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly interpret: (text: string) => Interpreted;
+  readonly log: (sentence: string) => void;
+  readonly arm: VirtualController;
+  readonly machine: Machine;
+  readonly faults = noLineFaults();
+  readonly now_rad: Float64Array;
+  readonly queue: string[] = [];
+  terminal: ByteStream | null = null;
+  line: FaultyLine;
+  seed = 1;
+  typed = "";
+  asks: Said["asks"];
+  blocked = false;
+  booting = false;
+  blinkedFor_s = NaN;
+  /** What comes without being asked for: the prompt follows it. */
+  readonly programs: Programs;
+  readonly monitor: (line: string) => Said;
+  listening!: Listening & { kind: "listening" };
+
+  constructor(options: VirtualCs7Options, joints: VendorSection) {
+    this.options = options;
+    this.joints = joints;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.interpret = this.options.interpret;
+    this.log =
+      this.options.log ??
+      ((): void => {
+        /* Nobody asked for it. */
+      });
+    this.arm = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      name: `Virtual ${this.robot.name}`,
+      ...(this.options.start_rad ? { start_rad: this.options.start_rad } : {}),
+      ...(this.options.maxSpeed === undefined ? {} : { maxSpeed: this.options.maxSpeed }),
+    });
+    this.machine = new Machine(this.arm);
+    this.now_rad = this.arm.jointAngles();
+    this.line = faultyLine(this.faults, this.scheduler, 1);
+    this.programs = new Programs(this.arm, this.machine, this.robot, this.joints, this.interpret, text => {
+      this.out(`\r\n${text}\r\n${this.blocked ? "" : "."}`);
+    });
+    this.monitor = createMonitor({
+      robot: this.robot,
+      arm: this.arm,
+      machine: this.machine,
+      programs: this.programs,
+      joints: this.joints,
+      interpret: this.interpret,
+      now_rad: this.now_rad,
+      digits: this.options.digits ?? DIGITS,
+    });
+  }
+
+  async open(): Promise<Cs7Started> {
+    const listening = await this.network.listen({ host: this.host, port: this.options.port ?? LINE_PORT }, stream => {
+      if (this.faults.refusing || this.booting) {
+        stream.close();
+        return;
+      }
+      // There is one terminal: who comes takes the place of one that may be gone without a word.
+      this.cut();
+      this.terminal = stream;
+      this.line = faultyLine(this.faults, this.scheduler, ++this.seed);
+      stream.onEnd(() => {
+        if (this.terminal === stream) this.cut();
+      });
+      stream.onBytes(lent => {
+        if (this.terminal === stream) this.take(lent, stream);
+      });
+    });
+    if (listening.kind === "taken") {
+      this.arm.close();
+      return listening;
+    }
+    this.listening = listening;
+    this.arm.onSample(sample => {
+      if (!this.faults.frozen) this.now_rad.set(sample.q_rad);
+      this.programs.cycle(sample.step);
+      if (this.blocked && !this.programs.isRunning && !this.arm.isMoving()) {
+        this.blocked = false;
+        this.out(this.machine.hindrance ? `${this.machine.hindrance}\r\n.` : ".");
+        this.work();
+      }
+      const presses_s = this.options.presses_s === undefined ? PRESSES_S : this.options.presses_s;
+      if (!this.machine.blinking) this.blinkedFor_s = NaN;
+      else if (presses_s !== null) {
+        if (Number.isNaN(this.blinkedFor_s)) this.blinkedFor_s = this.scheduler.now_s();
+        if (this.scheduler.now_s() - this.blinkedFor_s >= presses_s) this.machine.press();
+      }
+    });
+    return startedCs7(this);
+  }
+
+  out(text: string): void {
+    const to = this.terminal;
     if (!to || text === "" || to.waiting > MAX_WAITING) return;
-    line.send(textBytes(text), bytes => {
+    this.line.send(textBytes(text), bytes => {
       to.send(bytes);
     });
-    if (--faults.dropAfter <= 0) {
-      faults.dropAfter = Infinity;
-      cut();
+    if (--this.faults.dropAfter <= 0) {
+      this.faults.dropAfter = Infinity;
+      this.cut();
     }
   }
-  /** What comes without being asked for: the prompt follows it. */
-  const programs = new Programs(arm, machine, robot, joints, interpret, text => {
-    out(`\r\n${text}\r\n${blocked ? "" : "."}`);
-  });
-  const monitor = createMonitor({
-    robot,
-    arm,
-    machine,
-    programs,
-    joints,
-    interpret,
-    now_rad,
-    digits: options.digits ?? DIGITS,
-  });
 
-  function answer(spoken: Said): void {
-    ({ asks } = spoken);
-    blocked = spoken.blocks === true;
-    out(spoken.text + (asks || blocked ? "" : "."));
+  answer(spoken: Said): void {
+    ({ asks: this.asks } = spoken);
+    this.blocked = spoken.blocks === true;
+    this.out(spoken.text + (this.asks || this.blocked ? "" : "."));
   }
+
   /** One line at a time, with its echo. While a motion of DO is under way what is typed waits, except what stops it. */
-  function work(): void {
-    while (terminal) {
-      const at = blocked ? queue.findIndex(each => URGENT.test(each)) : 0;
-      const command = queue[at];
+  work(): void {
+    while (this.terminal) {
+      const at = this.blocked ? this.queue.findIndex(each => URGENT.test(each)) : 0;
+      const command = this.queue[at];
       if (command === undefined) return;
-      queue.splice(at, 1);
-      out(`${command}\r\n`);
-      if (blocked) {
-        arm.stop();
-        if (/PANIC/i.test(command)) machine.off();
+      this.queue.splice(at, 1);
+      this.out(`${command}\r\n`);
+      if (this.blocked) {
+        this.arm.stop();
+        if (/PANIC/i.test(command)) this.machine.off();
         continue;
       }
-      const question = asks;
-      asks = undefined;
-      answer(question ? question(command) : monitor(command));
+      const question = this.asks;
+      this.asks = undefined;
+      this.answer(question ? question(command) : this.monitor(command));
     }
   }
-  function cut(): void {
-    terminal?.close();
-    terminal = null;
-    typed = "";
-    queue.length = 0;
-    asks = undefined;
+
+  cut(): void {
+    this.terminal?.close();
+    this.terminal = null;
+    this.typed = "";
+    this.queue.length = 0;
+    this.asks = undefined;
   }
-  function take(bytes: Uint8Array, from: ByteStream): void {
+
+  take(bytes: Uint8Array, from: ByteStream): void {
     for (const byte of bytes) {
       const why = !isText(byte)
         ? `A byte ${byte} came, which is none of a terminal's.`
-        : typed.length > LONGEST
+        : this.typed.length > LONGEST
           ? "A line without end came."
-          : queue.length > MOST_AHEAD
+          : this.queue.length > MOST_AHEAD
             ? "Lines came faster than they are carried out."
             : null;
       if (why) {
-        log(`${from.peer.host}:${from.peer.port}: ${why} The connection is reset.`);
-        cut();
+        this.log(`${from.peer.host}:${from.peer.port}: ${why} The connection is reset.`);
+        this.cut();
         return;
       }
-      if (byte === 8) typed = typed.slice(0, -1);
+      if (byte === 8) this.typed = this.typed.slice(0, -1);
       else if (byte === 13) {
-        queue.push(typed);
-        typed = "";
-      } else if (byte !== 10) typed += String.fromCharCode(byte);
+        this.queue.push(this.typed);
+        this.typed = "";
+      } else if (byte !== 10) this.typed += String.fromCharCode(byte);
     }
-    work();
+    this.work();
   }
-  const listening = await network.listen({ host, port: options.port ?? LINE_PORT }, stream => {
-    if (faults.refusing || booting) {
-      stream.close();
-      return;
-    }
-    // There is one terminal: who comes takes the place of one that may be gone without a word.
-    cut();
-    terminal = stream;
-    line = faultyLine(faults, scheduler, ++seed);
-    stream.onEnd(() => {
-      if (terminal === stream) cut();
-    });
-    stream.onBytes(lent => {
-      if (terminal === stream) take(lent, stream);
-    });
-  });
-  if (listening.kind === "taken") {
-    arm.close();
-    return listening;
-  }
+}
 
-  arm.onSample(sample => {
-    if (!faults.frozen) now_rad.set(sample.q_rad);
-    programs.cycle(sample.step);
-    if (blocked && !programs.isRunning && !arm.isMoving()) {
-      blocked = false;
-      out(machine.hindrance ? `${machine.hindrance}\r\n.` : ".");
-      work();
-    }
-    const presses_s = options.presses_s === undefined ? PRESSES_S : options.presses_s;
-    if (!machine.blinking) blinkedFor_s = NaN;
-    else if (presses_s !== null) {
-      if (Number.isNaN(blinkedFor_s)) blinkedFor_s = scheduler.now_s();
-      if (scheduler.now_s() - blinkedFor_s >= presses_s) machine.press();
-    }
-  });
-
+function startedCs7(own: Cs7ControllerState): Cs7Started {
   return {
     kind: "started",
     virtual: {
-      robot,
-      arm,
-      faults,
-      machine,
+      robot: own.robot,
+      arm: own.arm,
+      faults: own.faults,
+      machine: own.machine,
       get isRunning() {
-        return programs.isRunning;
+        return own.programs.isRunning;
       },
-      ports: { line: listening.address.port },
+      ports: { line: own.listening.address.port },
       get isPowered() {
-        return machine.isPowered;
+        return own.machine.isPowered;
       },
       get calibrated() {
-        return machine.calibrated;
+        return own.machine.calibrated;
       },
       pendant: {
         setManual(on) {
-          if (on) programs.abort();
-          machine.setManual(on);
+          if (on) own.programs.abort();
+          own.machine.setManual(on);
         },
         pressHighPower() {
-          machine.press();
+          own.machine.press();
         },
         setEmergencyStop(pressed) {
-          machine.setEmergency(pressed);
+          own.machine.setEmergency(pressed);
         },
         setGuardOpen(open) {
-          machine.setGuard(open);
+          own.machine.setGuard(open);
         },
         fail() {
-          machine.off();
+          own.machine.off();
         },
         setInput(signal, value) {
-          arm.signals.write(signal, value);
+          own.arm.signals.write(signal, value);
         },
-        write: (name, text) => programs.write(name, text),
+        write: (name, text) => own.programs.write(name, text),
         type(command) {
-          const spoken = monitor(command);
+          const spoken = own.monitor(command);
           return spoken.asks ? spoken.asks("Y").text : spoken.text;
         },
         async jog(q_rad, ratio = 1) {
-          if (!machine.manual || !machine.isPowered)
+          if (!own.machine.manual || !own.machine.isPowered)
             return {
               kind: "refused",
               why: {
                 code: "controller.not-manual",
-                sentence: machine.manual ? "High power is off." : "The pendant is in COMP mode.",
+                sentence: own.machine.manual ? "High power is off." : "The pendant is in COMP mode.",
                 hint: "Press MAN at the pendant and switch high power on.",
               },
             };
@@ -277,24 +322,24 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
             speed: { ratio },
             blend_m: 0,
           };
-          return arm.run([slowed(robot, step, arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
+          return own.arm.run([slowed(own.robot, step, own.arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
         },
       },
       reboot() {
-        cut();
-        programs.forget();
-        machine.off();
-        machine.calibrated = false;
-        booting = true;
-        const stop = scheduler.every(BOOT_S, () => {
+        own.cut();
+        own.programs.forget();
+        own.machine.off();
+        own.machine.calibrated = false;
+        own.booting = true;
+        const stop = own.scheduler.every(BOOT_S, () => {
           stop();
-          booting = false;
+          own.booting = false;
         });
       },
       close() {
-        listening.close();
-        cut();
-        arm.close();
+        own.listening.close();
+        own.cut();
+        own.arm.close();
       },
     },
   };

@@ -1,5 +1,5 @@
 import type { VirtualController } from "../../virtual/index.ts";
-import { STATE } from "../codec.ts";
+import { STATE } from "../codec/monitor.ts";
 
 /** High power, its button, calibration, pendant and emergency stop of a CS7, in front of an arm that moves. */
 export class Machine {

@@ -11,7 +11,7 @@ import {
   axesOfJoints,
 } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { readPoint, STATE, stateName, valuesText, whereText, JOINTS } from "../codec.ts";
+import { readPoint, STATE, stateName, valuesText, whereText, JOINTS } from "../codec/monitor.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
 
@@ -79,40 +79,68 @@ export function createMonitor({
   now_rad,
   digits,
 }: MonitorOptions): (line: string) => Said {
-  const shown = new Float64Array(JOINTS);
-  const place = (): number[] => {
+  return monitorOf(new Monitor({ robot, arm, machine, programs, joints, interpret, now_rad, digits }));
+}
+
+class Monitor {
+  readonly robot: Robot;
+  readonly arm: VirtualController;
+  readonly machine: Machine;
+  readonly programs: Programs;
+  readonly joints: AxisCounting;
+  readonly interpret: (text: string) => Interpreted;
+  readonly now_rad: Float64Array;
+  readonly digits: number;
+  readonly shown = new Float64Array(JOINTS);
+
+  constructor({ robot, arm, machine, programs, joints, interpret, now_rad, digits }: MonitorOptions) {
+    this.robot = robot;
+    this.arm = arm;
+    this.machine = machine;
+    this.programs = programs;
+    this.joints = joints;
+    this.interpret = interpret;
+    this.now_rad = now_rad;
+    this.digits = digits;
+  }
+
+  place(): number[] {
     const { position, quaternion } = compose(
-      inverse(robot.baseFromVendorWorld as Pose),
-      flangePose(robot.arm, now_rad) as Pose,
+      inverse(this.robot.baseFromVendorWorld as Pose),
+      flangePose(this.robot.arm, this.now_rad) as Pose,
     );
     return [...position.map(value => 1000 * value), ...toVplusYpr(quaternion)];
-  };
-  const here = (): string =>
-    `TRANS(${place()
+  }
+
+  here(): string {
+    return `TRANS(${this.place()
       .map(value => value.toFixed(3))
       .join(",")})`;
-  const value = (expression: string): number | null => {
-    const state = /^STATE\s*\(\s*([12])\s*\)$/i.exec(expression);
-    if (state) return state[1] === "1" ? machine.state : arm.isMoving() ? 1 : 2;
-    if (/^SWITCH\s*\(\s*POWER\s*\)$/i.test(expression)) return machine.isPowered ? -1 : 0;
-    return programs.reals.get(expression.toUpperCase()) ?? null;
-  };
+  }
 
-  function listReals(rest: string): Said {
+  value(expression: string): number | null {
+    const state = /^STATE\s*\(\s*([12])\s*\)$/i.exec(expression);
+    if (state) return state[1] === "1" ? this.machine.state : this.arm.isMoving() ? 1 : 2;
+    if (/^SWITCH\s*\(\s*POWER\s*\)$/i.test(expression)) return this.machine.isPowered ? -1 : 0;
+    return this.programs.reals.get(expression.toUpperCase()) ?? null;
+  }
+
+  listReals(rest: string): Said {
     const names = rest
       .split(/,(?![^()]*\))/)
       .map(name => name.trim())
       .filter(name => name !== "");
-    const found = names.map(name => [name, value(name)] as const);
+    const found = names.map(name => [name, this.value(name)] as const);
     return found.some(([, each]) => each === null)
       ? said("*Undefined value*")
       : { text: valuesText(found as readonly (readonly [string, number])[]) };
   }
-  function motion(joints_deg: readonly number[], isLine: boolean): Said {
-    if (machine.hindrance) return said(machine.hindrance);
-    if (programs.isRunning || arm.isMoving()) return said("*Program task already active*");
-    programs.carryOut(
-      [programs.step(joints_deg, isLine, isLine ? { mps: robot.maxTcpSpeed_mps } : { ratio: 1 }, 1)],
+
+  motion(joints_deg: readonly number[], isLine: boolean): Said {
+    if (this.machine.hindrance) return said(this.machine.hindrance);
+    if (this.programs.isRunning || this.arm.isMoving()) return said("*Program task already active*");
+    this.programs.carryOut(
+      [this.programs.step(joints_deg, isLine, isLine ? { mps: this.robot.maxTcpSpeed_mps } : { ratio: 1 }, 1)],
       { tools: {}, frames: {} },
       () => {
         /* The prompt says it. */
@@ -121,44 +149,46 @@ export function createMonitor({
     );
     return { text: "", blocks: true };
   }
-  function execute(statement: string): Said {
+
+  execute(statement: string): Said {
     const real = REAL.exec(statement);
     const point = POINT.exec(statement);
     const move = MOVE.exec(statement);
-    if (real) return said(programs.setReal(real[1]!, Number(real[2])));
+    if (real) return said(this.programs.setReal(real[1]!, Number(real[2])));
     if (point) {
       const values = readPoint(point[2]!);
-      return values ? said(programs.setPoint(point[1]!, values)) : interpreted(statement);
+      return values ? said(this.programs.setPoint(point[1]!, values)) : this.interpreted(statement);
     }
     if (move) {
-      const values = readPoint(move[2]!) ?? programs.points.get(move[2]!.toUpperCase());
-      return values ? motion(values, move[1]!.toUpperCase() === "MOVES") : said("*Undefined value*");
+      const values = readPoint(move[2]!) ?? this.programs.points.get(move[2]!.toUpperCase());
+      return values ? this.motion(values, move[1]!.toUpperCase() === "MOVES") : said("*Undefined value*");
     }
     if (/^BRAKE$/i.test(statement)) {
-      arm.stop();
+      this.arm.stop();
       return said(null);
     }
-    return interpreted(statement);
+    return this.interpreted(statement);
   }
+
   /** Everything else goes to the interpreter of the language, after what was defined before it. */
-  function interpreted(statement: string): Said {
-    const own = statement.replace(/\bHERE\b/gi, here());
+  interpreted(statement: string): Said {
+    const own = statement.replace(/\bHERE\b/gi, this.here());
     const lines = [
-      ...programs.definitions,
-      `MOVE #PPOINT(${Array.from(axesOfJoints(joints, now_rad, shown)).join(",")})`,
+      ...this.programs.definitions,
+      `MOVE #PPOINT(${Array.from(axesOfJoints(this.joints, this.now_rad, this.shown)).join(",")})`,
       own,
     ];
-    const read = interpret(lines.map(line => `DO ${line}`).join("\n"));
+    const read = this.interpret(lines.map(line => `DO ${line}`).join("\n"));
     if (read.kind === "not-understood") return said(wordsOf(read.faults[0]?.sentence ?? "Illegal monitor command"));
     const steps: Step[] = [];
-    const run = read.run(arm.signals);
+    const run = read.run(this.arm.signals);
     for (let next = run.next(); !next.done && steps.length < MOST_STEPS; next = run.next())
       if (next.value.line === lines.length && next.value.step) steps.push(next.value.step);
     if (steps.length === 0)
-      return said(/^(SET\b|[A-Z][\w.]*\s*=)|\bALWAYS$|^(TOOL|BASE)\b/i.test(own) ? programs.define(own) : null);
-    if (machine.hindrance && steps.some(({ type }) => type === "move")) return said(machine.hindrance);
-    if (programs.isRunning || arm.isMoving()) return said("*Program task already active*");
-    programs.carryOut(
+      return said(/^(SET\b|[A-Z][\w.]*\s*=)|\bALWAYS$|^(TOOL|BASE)\b/i.test(own) ? this.programs.define(own) : null);
+    if (this.machine.hindrance && steps.some(({ type }) => type === "move")) return said(this.machine.hindrance);
+    if (this.programs.isRunning || this.arm.isMoving()) return said("*Program task already active*");
+    this.programs.carryOut(
       steps,
       read.context,
       () => {
@@ -168,7 +198,9 @@ export function createMonitor({
     );
     return { text: "", blocks: true };
   }
+}
 
+function monitorOf(own: Monitor): (line: string) => Said {
   return line => {
     const [, word = "", rest = ""] = /^\s*([A-Za-z]+)\s*(.*?)\s*$/.exec(line) ?? [];
     if (line.trim() === "") return said(null);
@@ -177,67 +209,67 @@ export function createMonitor({
       matching.find(each => each === word.toUpperCase()) ?? (matching.length === 1 ? matching[0] : undefined);
     switch (command) {
       case "WHERE":
-        return { text: whereText(place(), axesOfJoints(joints, now_rad, shown), digits) };
+        return { text: whereText(own.place(), axesOfJoints(own.joints, own.now_rad, own.shown), own.digits) };
       case "LISTR":
-        return listReals(rest);
+        return own.listReals(rest);
       case "LISTL":
         return {
-          text: `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${[...programs.points].map(([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`).join("")}`,
+          text: `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${[...own.programs.points].map(([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`).join("")}`,
         };
       case "SPEED":
-        return said(machine.setSpeed(Number(rest.split(/\s/)[0])) ? null : "*Illegal value*");
+        return said(own.machine.setSpeed(Number(rest.split(/\s/)[0])) ? null : "*Illegal value*");
       case "ENABLE":
       case "DISABLE": {
         if (!"POWER".startsWith(rest.toUpperCase().slice(0, 5)) || rest === "")
           return said("*Illegal monitor command*");
         if (command === "DISABLE") {
-          machine.off();
+          own.machine.off();
           return said(null);
         }
-        const why = machine.ask();
-        return said(why ?? (machine.blinking ? "Press HIGH POWER button to enable power" : null));
+        const why = own.machine.ask();
+        return said(why ?? (own.machine.blinking ? "Press HIGH POWER button to enable power" : null));
       }
       case "PANIC":
-        machine.off();
+        own.machine.off();
         return said(null);
       case "CALIBRATE":
         return {
           text: "Are you sure (Y/N)? ",
           asks: answer => {
             if (!/^y/i.test(answer.trim())) return said(null);
-            if (!machine.isPowered) return said("*Robot power off*");
-            machine.calibrated = true;
+            if (!own.machine.isPowered) return said("*Robot power off*");
+            own.machine.calibrated = true;
             return said(null);
           },
         };
       case "EXECUTE": {
         const [, name = ""] = new RegExp(`^(?:[0-9]+\\s*,?\\s*)?(${NAME})`).exec(rest) ?? [];
-        return said(name === "" ? "*Undefined program or variable name*" : programs.execute(name));
+        return said(name === "" ? "*Undefined program or variable name*" : own.programs.execute(name));
       }
       case "ABORT":
-        programs.abort();
+        own.programs.abort();
         return said(null);
       case "PROCEED":
-        return said(programs.proceed());
+        return said(own.programs.proceed());
       case "LOAD":
-        return said(programs.load(rest));
+        return said(own.programs.load(rest));
       case "DIRECTORY":
         return {
           text:
-            programs.names
+            own.programs.names
               .map(name => `.PROGRAM ${name}`)
               .join("\r\n")
               .replace(/^/gm, " ") + "\r\n",
         };
       case "STATUS":
         return {
-          text: `Robot ${stateName(machine.state)}}, speed ${machine.speed}, task 1 ${programs.isRunning ? "executing" : "idle"}\r\n`,
+          text: `Robot ${stateName(own.machine.state)}}, speed ${own.machine.speed}, task 1 ${own.programs.isRunning ? "executing" : "idle"}\r\n`,
         };
       case "SIGNAL": {
         const lines = rest.split(",").map(Number);
         if (lines.some(n => !Number.isInteger(n) || n === 0 || Math.abs(n) > 512))
           return said("*Illegal digital signal*");
-        for (const n of lines) arm.signals.write(`out_${Math.abs(n)}`, n > 0);
+        for (const n of lines) own.arm.signals.write(`out_${Math.abs(n)}`, n > 0);
         return said(null);
       }
       case "IO":
@@ -245,18 +277,22 @@ export function createMonitor({
           text: Array.from(
             { length: 8 },
             (_, i) =>
-              `out_${i + 1} ${arm.signals.read(`out_${i + 1}`) === true ? 1 : 0}   in_${1001 + i} ${arm.signals.read(`in_${1001 + i}`) === true ? 1 : 0}\r\n`,
+              `out_${i + 1} ${own.arm.signals.read(`out_${i + 1}`) === true ? 1 : 0}   in_${1001 + i} ${own.arm.signals.read(`in_${1001 + i}`) === true ? 1 : 0}\r\n`,
           ).join(""),
         };
       case "HERE": {
         if (!new RegExp(`^#?${NAME}$`).test(rest)) return said("*Illegal monitor command*");
-        const values = rest.startsWith("#") ? Array.from(axesOfJoints(joints, now_rad, shown)) : place();
+        const values = rest.startsWith("#")
+          ? Array.from(axesOfJoints(own.joints, own.now_rad, own.shown))
+          : own.place();
         const text = values.map(each => each.toFixed(3).padStart(10)).join("");
-        const why = rest.startsWith("#") ? programs.setPoint(rest, values) : programs.define(`SET ${rest} = ${here()}`);
+        const why = rest.startsWith("#")
+          ? own.programs.setPoint(rest, values)
+          : own.programs.define(`SET ${rest} = ${own.here()}`);
         return why ? said(why) : { text: `${text}\r\nChange? `, asks: () => said(null) };
       }
       case "DO":
-        return machine.state === STATE.fatal ? said("*Robot power off*") : execute(rest);
+        return own.machine.state === STATE.fatal ? said("*Robot power off*") : own.execute(rest);
       default:
         return said("*Illegal monitor command*");
     }

@@ -10,7 +10,7 @@ import {
 } from "@twincell/core";
 import { TextRun } from "../../runner/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
-import { PROGRAM, TWC, JOINTS } from "../codec.ts";
+import { PROGRAM, TWC, JOINTS } from "../codec/monitor.ts";
 import type { Machine } from "./machine.ts";
 
 const MOST_TEXT = 4_000_000;

@@ -1,6 +1,13 @@
 import type { CommandOutcome, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
 import { DONE, refused, stopped } from "../../outcomes.ts";
-import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOrder, Opened } from "../../driver/index.ts";
+import {
+  DriverStates,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterMotion,
+  type AdapterOrder,
+  type Opened,
+} from "../../driver/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
 import {
   AXES,
@@ -18,8 +25,8 @@ import {
   REPLY,
   SEQUENCE,
   type Message,
-} from "../codec.ts";
-import { JOINTS, speaksSimpleMessage } from "../robots.ts";
+} from "../codec/simple-message.ts";
+import { JOINTS, speaksSimpleMessage } from "../codec/robots.ts";
 import { isByHand, modeOf, safetyOf, sentenceOf } from "./state.ts";
 import {
   beyond,
@@ -57,7 +64,6 @@ interface Moving {
   sent_s: number;
   saidBy: "nobody" | "us" | "taken";
   braking: boolean;
-  ending: CommandOutcome | null;
   statuses: number;
   stood_s: number;
 }
@@ -110,12 +116,21 @@ function cannotSay(order: AdapterOrder): Refusal | null {
  * nothing goes on when they come back.
  */
 export function createStaubliAdapter(options: StaubliAdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, host } = options;
-  const status = noStatus();
-  const raw = new Float64Array(AXES);
-  const before_rad = new Float64Array(JOINTS).fill(NaN);
-  const answer = noPoint();
-  const lent: Lent = {
+  return staubliAdapterOf(new StaubliWire(options));
+}
+
+class StaubliWire extends DriverStates<Moving> {
+  protected readonly closedBecause = closedHere;
+  readonly options: StaubliAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly status = noStatus();
+  readonly raw = new Float64Array(AXES);
+  readonly before_rad = new Float64Array(JOINTS).fill(NaN);
+  readonly answer = noPoint();
+  readonly lent: Lent = {
     sequence: 0,
     time_s: 0,
     q_rad: new Float64Array(JOINTS),
@@ -126,260 +141,261 @@ export function createStaubliAdapter(options: StaubliAdapterOptions): Controller
     gripperClosed: false,
     message: "",
   };
-  let motionLine: ByteStream | null = null;
-  let feedback: ByteStream | null = null;
-  let events: AdapterEvents | null = null;
-  let life = 0;
-  let statuses = 0;
-  let states = 0;
-  let moving: Moving | null = null;
-  let ratio = 1;
-  let left = false;
-  let locked = false;
-  let next = NOT_YET + 1;
-  let halts = 0;
-  let begun_s = 0;
-  let probed_s = 0;
-  let isProbing = false;
-  let onState: (() => void) | null = null;
+  motionLine: ByteStream | null = null;
+  feedback: ByteStream | null = null;
+  statuses = 0;
+  states = 0;
+  ratio = 1;
+  left = false;
+  locked = false;
+  next = NOT_YET + 1;
+  halts = 0;
+  begun_s = 0;
+  probed_s = 0;
+  isProbing = false;
+  onState: (() => void) | null = null;
 
-  const settle = (outcome: CommandOutcome): void => {
-    const ended = moving;
-    moving = null;
-    ended?.resolve(outcome);
-  };
-  const send = (sequence: number, q_rad: ArrayLike<number> | null, velocity: number, duration_s: number): void => {
+  constructor(options: StaubliAdapterOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+  }
+
+  send(sequence: number, q_rad: ArrayLike<number> | null, velocity: number, duration_s: number): void {
     const point = { ...noPoint(), sequence, velocity, duration_s };
-    if (q_rad) for (let i = 0; i < JOINTS; i++) point.q_rad[i] = within(q_rad[i]!, robot.arm.joints[i]!.limits);
-    motionLine?.send(pointBytes(point, COMM.request, REPLY.none));
-  };
-  const halt = (): void => {
-    halts++;
-    send(SEQUENCE.stop, null, 0, 0);
-  };
-  function say(at: Moving): void {
+    if (q_rad) for (let i = 0; i < JOINTS; i++) point.q_rad[i] = within(q_rad[i]!, this.robot.arm.joints[i]!.limits);
+    this.motionLine?.send(pointBytes(point, COMM.request, REPLY.none));
+  }
+
+  halt(): void {
+    this.halts++;
+    this.send(SEQUENCE.stop, null, 0, 0);
+  }
+
+  say(at: Moving): void {
     const { motion } = at;
-    at.sent_s = at.stood_s = scheduler.now_s();
+    at.sent_s = at.stood_s = this.scheduler.now_s();
     at.saidBy = "us";
     at.braking = false;
     // A point on the heels of a stop would be forgotten with the others: it follows the answer.
-    at.sequence = halts > 0 ? NOT_YET : next++;
+    at.sequence = this.halts > 0 ? NOT_YET : this.next++;
     if (at.sequence === NOT_YET) return;
-    send(
+    this.send(
       at.sequence,
       motion.q_rad,
-      Math.max(LEAST_RATIO, motion.path === "joints" ? motion.ratio * ratio : 0),
+      Math.max(LEAST_RATIO, motion.path === "joints" ? motion.ratio * this.ratio : 0),
       motion.duration_s,
     );
   }
 
-  function close(): void {
-    life++;
-    left ||= moving !== null;
-    for (const stream of [motionLine, feedback]) stream?.close();
-    motionLine = feedback = null;
-    events = null;
-    onState = null;
-    states = statuses = halts = 0;
-    isProbing = false;
-    before_rad.fill(NaN);
-    settle(stopped(closedHere));
+  protected release(): void {
+    this.left ||= this.moving !== null;
+    for (const stream of [this.motionLine, this.feedback]) stream?.close();
+    this.motionLine = this.feedback = null;
+    this.onState = null;
+    this.states = this.statuses = this.halts = 0;
+    this.isProbing = false;
+    this.before_rad.fill(NaN);
   }
-  function lose(sentence: string): void {
-    const told = events;
-    close();
-    told?.lost(sentence);
-  }
-  function listen(to: ByteStream, mine: number, take: (message: Message) => void): void {
+
+  listen(to: ByteStream, isMine: () => boolean, take: (message: Message) => void): void {
     const reader = new MessageReader();
     to.onEnd(({ sentence }) => {
-      if (mine === life) lose(sentence);
+      if (isMine()) this.lose(sentence);
     });
     to.onBytes(bytes => {
-      if (mine !== life) return;
+      if (!isMine()) return;
       const why = reader.push(bytes, message => {
         if (!message.fits) {
-          lose(
+          this.lose(
             `A message of type ${message.type} came with the length of another: the controller runs another version of the program.`,
           );
           return false;
         }
         take(message);
-        return mine === life;
+        return isMine();
       });
-      if (why && mine === life) lose(why);
+      if (why && isMine()) this.lose(why);
     });
   }
 
-  function onReply(message: Message): void {
+  readonly onReply = (message: Message): void => {
     if (message.type !== MESSAGE.point || message.comm !== COMM.reply) return;
-    const at = moving;
-    readPoint(message, answer);
-    if (answer.sequence === PROBE) {
-      events?.roundTrip(scheduler.now_s() - probed_s);
-      isProbing = false;
+    const at = this.moving;
+    readPoint(message, this.answer);
+    if (this.answer.sequence === PROBE) {
+      this.events?.roundTrip(this.scheduler.now_s() - this.probed_s);
+      this.isProbing = false;
       return;
     }
-    if (answer.sequence === SEQUENCE.stop) {
-      halts = Math.max(0, halts - 1);
-      if (halts === 0 && at?.saidBy === "us" && at.sequence === NOT_YET) say(at);
+    if (this.answer.sequence === SEQUENCE.stop) {
+      this.halts = Math.max(0, this.halts - 1);
+      if (this.halts === 0 && at?.saidBy === "us" && at.sequence === NOT_YET) this.say(at);
       return;
     }
-    if (!at || answer.sequence !== at.sequence || at.saidBy !== "us") return;
-    events?.roundTrip(scheduler.now_s() - at.sent_s);
+    if (!at || this.answer.sequence !== at.sequence || at.saidBy !== "us") return;
+    this.events?.roundTrip(this.scheduler.now_s() - at.sent_s);
     if (message.reply !== REPLY.success) {
-      settle(refused(notTaken));
+      this.settle(refused(notTaken));
       return;
     }
     at.saidBy = "taken";
-    at.statuses = statuses;
-    at.stood_s = scheduler.now_s();
-  }
-  function onFeedback(message: Message): void {
+    at.statuses = this.statuses;
+    at.stood_s = this.scheduler.now_s();
+  };
+
+  readonly onFeedback = (message: Message): void => {
     if (message.type === MESSAGE.status) {
-      readStatus(message, status);
-      statuses++;
+      readStatus(message, this.status);
+      this.statuses++;
       // Lost power keeps motions in the controller's stack; they are not to go on when it is back.
-      const why = sentenceOf(status);
-      if (moving && !moving.ending && (why !== "" || isByHand(status))) {
-        end(moving, stopped(lostPower(why !== "" ? why : "The robot was switched to manual mode.")));
+      const why = sentenceOf(this.status);
+      if (this.moving && this.phase === "executing" && (why !== "" || isByHand(this.status))) {
+        this.end(this.moving, stopped(lostPower(why !== "" ? why : "The robot was switched to manual mode.")));
       }
-      onState?.();
+      this.onState?.();
       return;
     }
     if (message.type !== MESSAGE.joints) return;
-    readJoints(message, raw);
-    states++;
-    for (let i = 0; i < JOINTS; i++) lent.q_rad[i] = raw[i]!;
-    const stands = lent.q_rad.every((value, i) => Math.abs(value - before_rad[i]!) < STANDS_RAD);
-    before_rad.set(lent.q_rad);
-    look(stands);
-    lent.sequence++;
-    lent.time_s = scheduler.now_s() - begun_s;
-    lent.mode = modeOf(status);
-    lent.safety = safetyOf(status, locked);
-    lent.message = sentenceOf(status);
-    lent.moving = !stands || (moving !== null && !moving.braking && moving.saidBy !== "nobody");
-    onState?.();
-    events?.sample(lent);
-    if (events) probe(stands);
-  }
-  function probe(stands: boolean): void {
-    const t = scheduler.now_s();
-    if (isProbing && t - probed_s > PATIENCE_S) lose(`The socket of the motions has not answered for ${PATIENCE_S} s.`);
-    else if (!isProbing && stands && !moving && t - probed_s > PROBE_S) {
-      isProbing = true;
-      probed_s = t;
-      send(PROBE, lent.q_rad, 0, 0);
+    readJoints(message, this.raw);
+    this.states++;
+    for (let i = 0; i < JOINTS; i++) this.lent.q_rad[i] = this.raw[i]!;
+    const stands = this.lent.q_rad.every((value, i) => Math.abs(value - this.before_rad[i]!) < STANDS_RAD);
+    this.before_rad.set(this.lent.q_rad);
+    this.look(stands);
+    this.lent.sequence++;
+    this.lent.time_s = this.scheduler.now_s() - this.begun_s;
+    this.lent.mode = modeOf(this.status);
+    this.lent.safety = safetyOf(this.status, this.locked);
+    this.lent.message = sentenceOf(this.status);
+    this.lent.moving = !stands || (this.moving !== null && !this.moving.braking && this.moving.saidBy !== "nobody");
+    this.onState?.();
+    this.events?.sample(this.lent);
+    if (this.events) this.probe(stands);
+  };
+
+  probe(stands: boolean): void {
+    const t = this.scheduler.now_s();
+    if (this.isProbing && t - this.probed_s > PATIENCE_S)
+      this.lose(`The socket of the motions has not answered for ${PATIENCE_S} s.`);
+    else if (!this.isProbing && stands && !this.moving && t - this.probed_s > PROBE_S) {
+      this.isProbing = true;
+      this.probed_s = t;
+      this.send(PROBE, this.lent.q_rad, 0, 0);
     }
   }
 
   /** Where the motion under way is, with every state that comes. */
-  function look(stands: boolean): void {
-    const at = moving;
-    const t = scheduler.now_s();
+  look(stands: boolean): void {
+    const at = this.moving;
+    const t = this.scheduler.now_s();
     if (!at) return;
     if (!stands) {
       at.stood_s = t;
       return;
     }
     if (at.braking) {
-      if (at.ending) settle(at.ending);
-      else if (ratio > 0) say(at);
+      if (this.ending) this.settle(this.ending);
+      else if (this.ratio > 0) this.say(at);
       else at.saidBy = "nobody";
       return;
     }
     if (at.saidBy === "us" && t - at.sent_s > PATIENCE_S) {
-      lose(`A point was not answered within ${PATIENCE_S} s.`);
+      this.lose(`A point was not answered within ${PATIENCE_S} s.`);
       return;
     }
-    if (at.saidBy !== "taken" || status.moving || statuses === at.statuses) return;
+    if (at.saidBy !== "taken" || this.status.moving || this.statuses === at.statuses) return;
     let away_rad = 0;
-    for (let i = 0; i < JOINTS; i++) away_rad = Math.max(away_rad, Math.abs(lent.q_rad[i]! - at.motion.q_rad[i]!));
+    for (let i = 0; i < JOINTS; i++) away_rad = Math.max(away_rad, Math.abs(this.lent.q_rad[i]! - at.motion.q_rad[i]!));
     if (away_rad < THERE_RAD) {
-      settle(DONE);
+      this.settle(DONE);
       return;
     }
     const isNear = away_rad < NEAR_RAD && t - at.stood_s > NEAR_S;
     if (!isNear && t - at.stood_s <= SHORT_S) return;
     // Held at its pendant it may still have a little to go.
-    end(at, isNear ? DONE : stopped(stoodShort(SHORT_S)));
-  }
-  function brake(at: Moving): void {
-    at.braking = true;
-    // Two states that are the same, both from after it.
-    before_rad.fill(NaN);
-    halt();
-  }
-  /** Over as soon as it stands and nothing is left in the controller's stack. */
-  function end(at: Moving, outcome: CommandOutcome): void {
-    at.ending = outcome;
-    brake(at);
+    this.end(at, isNear ? DONE : stopped(stoodShort(SHORT_S)));
   }
 
-  async function connect(port: number, mine: number): Promise<ByteStream | Refusal> {
-    const connected = await network.connect({ host, port });
+  brake(at: Moving): void {
+    at.braking = true;
+    // Two states that are the same, both from after it.
+    this.before_rad.fill(NaN);
+    this.halt();
+  }
+
+  /** Over as soon as it stands and nothing is left in the controller's stack. */
+  end(at: Moving, outcome: CommandOutcome): void {
+    this.ending = outcome;
+    this.brake(at);
+  }
+
+  async connect(port: number, isMine: () => boolean): Promise<ByteStream | Refusal> {
+    const connected = await this.network.connect({ host: this.host, port });
     if (connected.kind === "refused") return notReached(connected.sentence);
-    if (mine !== life) {
+    if (!isMine()) {
       connected.stream.close();
       return closedHere;
     }
     return connected.stream;
   }
-  async function open(to: AdapterEvents): Promise<Opened> {
-    close();
-    const mine = life;
-    const fail = (why: Refusal, again: boolean): Opened => {
-      if (mine === life) close();
-      return { kind: "failed", why, again };
-    };
-    if (robot.arm.joints.length !== JOINTS) return fail(otherCount(robot), false);
-    if (!speaksSimpleMessage(robot)) return fail(otherZero(robot), false);
-    const states_ = await connect(options.ports?.feedback ?? FEEDBACK_PORT, mine);
+
+  readonly open = async (to: AdapterEvents): Promise<Opened> => {
+    const isMine = this.connecting();
+    const fail = (why: Refusal, again: boolean): Opened => this.failed(isMine, why, again);
+    if (this.robot.arm.joints.length !== JOINTS) return fail(otherCount(this.robot), false);
+    if (!speaksSimpleMessage(this.robot)) return fail(otherZero(this.robot), false);
+    const states_ = await this.connect(this.options.ports?.feedback ?? FEEDBACK_PORT, isMine);
     if ("code" in states_) return fail(states_, true);
-    feedback = states_;
-    listen(states_, mine, onFeedback);
-    const orders = await connect(options.ports?.motion ?? MOTION_PORT, mine);
+    this.feedback = states_;
+    this.listen(states_, isMine, this.onFeedback);
+    const orders = await this.connect(this.options.ports?.motion ?? MOTION_PORT, isMine);
     if ("code" in orders) return fail(orders, true);
-    motionLine = orders;
-    listen(orders, mine, onReply);
+    this.motionLine = orders;
+    this.listen(orders, isMine, this.onReply);
     // What was on its way when the line broke is not to go on; what others started is theirs.
-    if (left) halt();
-    left = false;
-    begun_s = scheduler.now_s();
+    if (this.left) this.halt();
+    this.left = false;
+    this.begun_s = this.scheduler.now_s();
     // The program waits for a second before it tells anything.
     await new Promise<void>(resolve => {
-      const stop = scheduler.every(FIRST_S, () => {
+      const stop = this.scheduler.every(FIRST_S, () => {
         over();
       });
       const over = (): void => {
         stop();
-        onState = null;
+        this.onState = null;
         resolve();
       };
-      onState = () => {
-        if (states > 0 && statuses > 0) over();
+      this.onState = () => {
+        if (this.states > 0 && this.statuses > 0) over();
       };
     });
-    if (mine !== life) return { kind: "failed", why: closedHere, again: true };
-    if (states === 0 || statuses === 0) return fail(saysNothing(FIRST_S), true);
-    for (let i = JOINTS; i < AXES; i++) if (raw[i] !== 0) return fail(moreJoints(robot, i + 1), false);
-    const joints = robot.arm.joints;
+    if (!isMine()) return { kind: "failed", why: closedHere, again: true };
+    if (this.states === 0 || this.statuses === 0) return fail(saysNothing(FIRST_S), true);
+    for (let i = JOINTS; i < AXES; i++) if (this.raw[i] !== 0) return fail(moreJoints(this.robot, i + 1), false);
+    const joints = this.robot.arm.joints;
     const odd = joints.findIndex(
       ({ limits }, i) =>
-        lent.q_rad[i]! < limits.lower_rad - BEYOND_RAD || lent.q_rad[i]! > limits.upper_rad + BEYOND_RAD,
+        this.lent.q_rad[i]! < limits.lower_rad - BEYOND_RAD || this.lent.q_rad[i]! > limits.upper_rad + BEYOND_RAD,
     );
-    if (odd >= 0) return fail(beyond(robot, odd + 1, lent.q_rad[odd]!), false);
-    events = to;
-    return { kind: "open" };
-  }
+    if (odd >= 0) return fail(beyond(this.robot, odd + 1, this.lent.q_rad[odd]!), false);
+    return this.ready(to);
+  };
+}
 
+function staubliAdapterOf(wire: StaubliWire): ControllerAdapter {
   return {
     brand: "Stäubli",
-    robot,
-    stale_s: options.stale_s ?? STALE_S,
-    open,
-    close,
+    robot: wire.robot,
+    stale_s: wire.options.stale_s ?? STALE_S,
+    open: wire.open,
+    close: () => {
+      wire.close();
+    },
     watchdog: {
       kind: "none",
       because:
@@ -387,39 +403,40 @@ export function createStaubliAdapter(options: StaubliAdapterOptions): Controller
     },
     cannotSay,
     move(motion) {
-      const why = motionLine ? cannotSay(motion) : closedHere;
+      const why = wire.motionLine ? cannotSay(motion) : closedHere;
       if (why) return Promise.resolve(refused(why));
-      return new Promise(resolve => {
-        moving = {
+      return wire.execute(
+        resolve => ({
           motion,
           resolve,
           sequence: 0,
-          sent_s: scheduler.now_s(),
+          sent_s: wire.scheduler.now_s(),
           saidBy: "nobody",
           braking: false,
-          ending: null,
-          statuses,
-          stood_s: scheduler.now_s(),
-        };
-        if (ratio > 0) say(moving);
-        else moving.braking = true;
-      });
+          statuses: wire.statuses,
+          stood_s: wire.scheduler.now_s(),
+        }),
+        moving => {
+          if (wire.ratio > 0) wire.say(moving);
+          else moving.braking = true;
+        },
+      );
     },
     stop(emergency) {
-      if (emergency) locked = true;
-      if (moving) end(moving, stopped(wasStopped(robot)));
-      else halt();
+      if (emergency) wire.locked = true;
+      if (wire.moving) wire.end(wire.moving, stopped(wasStopped(wire.robot)));
+      else wire.halt();
     },
     setOverride(to) {
-      if (to === ratio) return null;
-      ratio = lent.override = to;
-      if (moving && !moving.ending && !moving.braking) brake(moving);
+      if (to === wire.ratio) return null;
+      wire.ratio = wire.lent.override = to;
+      if (wire.moving && wire.phase === "executing" && !wire.moving.braking) wire.brake(wire.moving);
       return null;
     },
     reset() {
-      const why = sentenceOf(status);
+      const why = sentenceOf(wire.status);
       if (why !== "") return Promise.resolve(refused(noPower(why)));
-      locked = false;
+      wire.locked = false;
       return Promise.resolve(DONE);
     },
     setSignal: () => noSignals,

@@ -1,5 +1,5 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
-import type { Status } from "../codec.ts";
+import type { Status } from "../codec/simple-message.ts";
 
 const MANUAL = 1;
 const AUTOMATIC = 2;

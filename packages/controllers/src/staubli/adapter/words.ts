@@ -1,6 +1,6 @@
 import type { Refusal, Robot } from "@twincell/core";
 import { inDegrees } from "../../refusals.ts";
-import { JOINTS } from "../robots.ts";
+import { JOINTS } from "../codec/robots.ts";
 
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 

@@ -20,9 +20,9 @@ import {
   SEQUENCE,
   statusBytes,
   type Message,
-} from "../codec.ts";
+} from "../codec/simple-message.ts";
 import { Machine, MANUAL_MPS, ES, type StaubliMode } from "./machine.ts";
-import { serveSocket } from "./server.ts";
+import { serveSocket, type ServerSocket } from "./server.ts";
 import { Stack } from "./stack.ts";
 
 export interface VirtualStaubliOptions {
@@ -98,239 +98,296 @@ const JOINTS = 6;
  * over the other.
  */
 export async function createVirtualStaubli(options: VirtualStaubliOptions): Promise<StaubliStarted> {
-  const { robot, scheduler, network, host } = options;
-  const log =
-    options.log ??
-    ((): void => {
-      /* Nobody asked for it. */
+  const { name, arm } = options.robot;
+  return arm.joints.length === JOINTS
+    ? openStaubli(options)
+    : { kind: "taken", sentence: `${name} has ${arm.joints.length} joints; ros_server moves ${JOINTS}.` };
+}
+
+function openStaubli(options: VirtualStaubliOptions): Promise<StaubliStarted> {
+  return new StaubliControllerState(options).open();
+}
+
+class StaubliControllerState {
+  readonly options: VirtualStaubliOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly log: (sentence: string) => void;
+  readonly feedback_s: number;
+  readonly settle_s: number;
+  readonly arm: VirtualController;
+  readonly machine: Machine;
+  readonly stack: Stack;
+  readonly faults = noLineFaults();
+  readonly point = noPoint();
+  readonly status = noStatus();
+  readonly now_rad: Float64Array;
+  heardFrom_s = Infinity;
+  sent_s = -Infinity;
+  throttle = 0;
+  stopNow = false;
+  booting = false;
+  loaded: Extract<Interpreted, { kind: "ready" }> | null = null;
+  readonly common: {
+    network: Network;
+    host: string;
+    scheduler: Scheduler;
+    faults: LineFaults;
+    log: (sentence: string) => void;
+  };
+  motion!: ServerSocket;
+  feedback!: ServerSocket;
+
+  constructor(options: VirtualStaubliOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.log =
+      this.options.log ??
+      ((): void => {
+        /* Nobody asked for it. */
+      });
+    this.feedback_s = this.options.feedback_s ?? FEEDBACK_S;
+    this.settle_s = this.options.settle_s ?? SETTLE_S;
+    this.arm = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      name: `Virtual ${this.robot.name}`,
+      ...(this.options.start_rad ? { start_rad: this.options.start_rad } : {}),
+      ...(this.options.maxSpeed === undefined ? {} : { maxSpeed: this.options.maxSpeed }),
     });
-  if (robot.arm.joints.length !== JOINTS)
-    return {
-      kind: "taken",
-      sentence: `${robot.name} has ${robot.arm.joints.length} joints; ros_server moves ${JOINTS}.`,
+    this.machine = new Machine(this.arm, this.options.mode ?? "remote");
+    this.stack = new Stack(this.robot, this.arm, this.machine);
+    this.now_rad = this.arm.jointAngles();
+    this.common = {
+      network: this.network,
+      host: this.host,
+      scheduler: this.scheduler,
+      faults: this.faults,
+      log: this.log,
     };
-  const feedback_s = options.feedback_s ?? FEEDBACK_S;
-  const settle_s = options.settle_s ?? SETTLE_S;
-  const arm = createVirtualController({
-    robot,
-    scheduler,
-    name: `Virtual ${robot.name}`,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
-    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
-  });
-  const machine = new Machine(arm, options.mode ?? "remote");
-  const stack = new Stack(robot, arm, machine);
-  const faults = noLineFaults();
-  const point = noPoint();
-  const status = noStatus();
-  const now_rad = arm.jointAngles();
-  let heardFrom_s = Infinity;
-  let sent_s = -Infinity;
-  let throttle = 0;
-  let stopNow = false;
-  let booting = false;
-  let loaded: Extract<Interpreted, { kind: "ready" }> | null = null;
+  }
+
+  async open(): Promise<StaubliStarted> {
+    this.motion = await serveSocket({
+      ...this.common,
+      port: this.options.ports?.motion ?? MOTION_PORT,
+      onMessage: this.onMotion,
+      onChange() {
+        /* The cycle looks. */
+      },
+    });
+    this.feedback = await serveSocket({
+      ...this.common,
+      port: this.options.ports?.feedback ?? FEEDBACK_PORT,
+      // What comes here is taken for a sign of life.
+      onMessage() {
+        /* Nothing is answered. */
+      },
+      onChange: connected => {
+        this.heardFrom_s = connected ? this.scheduler.now_s() : Infinity;
+      },
+    });
+    for (const { listening } of [this.motion, this.feedback]) {
+      if (listening.kind === "taken") {
+        this.motion.close();
+        this.feedback.close();
+        this.arm.close();
+        return listening;
+      }
+    }
+    this.arm.onSample(sample => {
+      if (!this.faults.frozen) this.now_rad.set(sample.q_rad);
+      if (this.booting) return;
+      // `motionControl`: with a client gone, or told to stop, everything is forgotten.
+      const alone = !this.motion.isConnected || !this.feedback.isConnected || !this.isSending();
+      if (this.stopNow || (alone && !this.stack.runsText)) {
+        if (this.stopNow || this.stack.waiting > 0) this.stack.reset();
+        this.stopNow = false;
+      }
+      this.stack.cycle(sample.step);
+      const t = this.scheduler.now_s();
+      if (this.feedback.isConnected && this.isSending() && t - this.sent_s >= this.feedback_s - 1e-9) {
+        this.sent_s = t;
+        this.tell();
+      }
+    });
+    this.machine.enablePower();
+    return startedStaubli(this);
+  }
 
   /** `pushMotion` of the program; whether the point was taken. */
-  function take({ sequence, q_rad, velocity }: typeof point): boolean {
+  take({ sequence, q_rad, velocity }: typeof this.point): boolean {
     if (sequence === SEQUENCE.stop) {
-      stopNow = true;
+      this.stopNow = true;
       return true;
     }
     const q = [...q_rad.subarray(0, JOINTS)];
     const ratio = Math.min(1, Math.max(0, velocity));
-    return ratio > 0 && jointRefusal(robot, q) === null && stack.push(q, ratio);
+    return ratio > 0 && jointRefusal(this.robot, q) === null && this.stack.push(q, ratio);
   }
-  function onMotion(message: Message): void {
+
+  readonly onMotion = (message: Message): void => {
     if (message.type !== MESSAGE.point && message.type !== MESSAGE.fullPoint) return;
     const isFull = message.type === MESSAGE.fullPoint;
-    const taken = take(isFull ? readFullPoint(message, point) : readPoint(message, point));
+    const taken = this.take(isFull ? readFullPoint(message, this.point) : readPoint(message, this.point));
     if (message.comm !== COMM.request) return;
-    const { sequence } = point;
+    const { sequence } = this.point;
     const reply = taken ? REPLY.success : REPLY.failure;
-    motion.send(isFull ? fullPointReply(sequence, reply) : pointBytes({ ...noPoint(), sequence }, COMM.reply, reply));
-  }
-  const isSending = (): boolean => scheduler.now_s() - heardFrom_s >= settle_s;
+    this.motion.send(
+      isFull ? fullPointReply(sequence, reply) : pointBytes({ ...noPoint(), sequence }, COMM.reply, reply),
+    );
+  };
 
-  const common = { network, host, scheduler, faults, log };
-  const motion = await serveSocket({
-    ...common,
-    port: options.ports?.motion ?? MOTION_PORT,
-    onMessage: onMotion,
-    onChange() {
-      /* The cycle looks. */
-    },
-  });
-  const feedback = await serveSocket({
-    ...common,
-    port: options.ports?.feedback ?? FEEDBACK_PORT,
-    // What comes here is taken for a sign of life.
-    onMessage() {
-      /* Nothing is answered. */
-    },
-    onChange(connected) {
-      heardFrom_s = connected ? scheduler.now_s() : Infinity;
-    },
-  });
-  for (const { listening } of [motion, feedback]) {
-    if (listening.kind === "taken") {
-      motion.close();
-      feedback.close();
-      arm.close();
-      return listening;
-    }
+  isSending(): boolean {
+    return this.scheduler.now_s() - this.heardFrom_s >= this.settle_s;
   }
 
-  function tell(): void {
-    feedback.send(jointsBytes(now_rad));
-    if (throttle === STATUS_EVERY) {
-      const es = machine.esStatus;
-      const powered = machine.isPowered;
-      status.powered = powered;
-      status.emergency = es === ES.stop;
-      status.moving = arm.isMoving();
-      status.mode = machine.workingMode < 3 ? 1 : 2;
-      status.possible = powered && es === ES.ok;
-      feedback.send(statusBytes(status));
-      throttle = 0;
+  tell(): void {
+    this.feedback.send(jointsBytes(this.now_rad));
+    if (this.throttle === STATUS_EVERY) {
+      const es = this.machine.esStatus;
+      const powered = this.machine.isPowered;
+      this.status.powered = powered;
+      this.status.emergency = es === ES.stop;
+      this.status.moving = this.arm.isMoving();
+      this.status.mode = this.machine.workingMode < 3 ? 1 : 2;
+      this.status.possible = powered && es === ES.ok;
+      this.feedback.send(statusBytes(this.status));
+      this.throttle = 0;
     }
-    throttle++;
+    this.throttle++;
   }
-  arm.onSample(sample => {
-    if (!faults.frozen) now_rad.set(sample.q_rad);
-    if (booting) return;
-    // `motionControl`: with a client gone, or told to stop, everything is forgotten.
-    const alone = !motion.isConnected || !feedback.isConnected || !isSending();
-    if (stopNow || (alone && !stack.runsText)) {
-      if (stopNow || stack.waiting > 0) stack.reset();
-      stopNow = false;
-    }
-    stack.cycle(sample.step);
-    const t = scheduler.now_s();
-    if (feedback.isConnected && isSending() && t - sent_s >= feedback_s - 1e-9) {
-      sent_s = t;
-      tell();
-    }
-  });
-  machine.enablePower();
 
-  const address = (socket: typeof motion): number =>
-    socket.listening.kind === "listening" ? socket.listening.address.port : 0;
+  address(socket: typeof this.motion): number {
+    return socket.listening.kind === "listening" ? socket.listening.address.port : 0;
+  }
+}
+
+function startedStaubli(own: StaubliControllerState): StaubliStarted {
   return {
     kind: "started",
     virtual: {
-      robot,
-      arm,
-      faults,
-      machine,
-      ports: { motion: address(motion), feedback: address(feedback) },
+      robot: own.robot,
+      arm: own.arm,
+      faults: own.faults,
+      machine: own.machine,
+      ports: { motion: own.address(own.motion), feedback: own.address(own.feedback) },
       get isPowered() {
-        return machine.isPowered;
+        return own.machine.isPowered;
       },
       get mode() {
-        return machine.mode;
+        return own.machine.mode;
       },
       get waiting() {
-        return stack.waiting;
+        return own.stack.waiting;
       },
       get runsText() {
-        return stack.runsText;
+        return own.stack.runsText;
       },
       get line() {
-        return stack.line;
+        return own.stack.line;
       },
-      pendant: {
-        setMode(mode) {
-          machine.setMode(mode);
-        },
-        setEnabling(pressed) {
-          machine.setEnabling(pressed);
-        },
-        acknowledge() {
-          machine.acknowledge();
-        },
-        setPower(on) {
-          if (!on) machine.disablePower();
-          return on ? machine.enablePower() : null;
-        },
-        setHold(on) {
-          machine.setHold(on);
-        },
-        setMonitorSpeed: percent => machine.setMonitorSpeed(percent),
-        setEmergencyStop(pressed) {
-          machine.setEmergency(pressed);
-        },
-        setDoorOpen(open) {
-          machine.setDoor(open);
-        },
-        fail(because) {
-          machine.fail(because);
-        },
-        setInput(signal, value) {
-          arm.signals.write(signal, value);
-        },
-        async jog(q_rad, ratio = 1) {
-          if (machine.mode !== "manual" || !machine.moves)
-            return {
-              kind: "refused",
-              why: {
-                code: "controller.not-manual",
-                sentence:
-                  machine.mode === "manual"
-                    ? "The enabling switch is not pressed."
-                    : `The mode is ${machine.mode}; the arm is jogged in manual mode.`,
-                hint: "Turn the mode selector to manual and press the enabling switch.",
-              },
-            };
-          const step: MoveStep = {
-            id: "jog",
-            type: "move",
-            path: "ptp",
-            target: { q: Array.from(q_rad) },
-            speed: { ratio },
-            blend_m: 0,
-          };
-          return arm.run([slowed(robot, step, arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
-        },
-        load(text) {
-          const read = options.interpret(text);
-          if (read.kind === "not-understood") {
-            const [fault] = read.faults;
-            return `Line ${fault?.line ?? 1}: ${fault?.sentence ?? "The text was not understood."}`;
-          }
-          loaded = read;
-          return null;
-        },
-        start() {
-          if (!loaded) return Promise.resolve("No program is loaded.");
-          const { context } = loaded;
-          const run = new TextRun(loaded.run(arm.signals));
-          return new Promise(over => {
-            stack.start({ run, context, over });
-          });
-        },
-        stop() {
-          stack.reset();
-        },
-      },
+      pendant: pendantOf(own),
       reboot() {
-        motion.cut();
-        feedback.cut();
-        stack.reset();
-        machine.disablePower();
-        booting = true;
-        const stop = scheduler.every(BOOT_S, () => {
+        own.motion.cut();
+        own.feedback.cut();
+        own.stack.reset();
+        own.machine.disablePower();
+        own.booting = true;
+        const stop = own.scheduler.every(BOOT_S, () => {
           stop();
-          booting = false;
+          own.booting = false;
           // In remote mode the program switches the arm on by itself when it starts.
-          if (machine.mode === "remote") machine.enablePower();
+          if (own.machine.mode === "remote") own.machine.enablePower();
         });
       },
       close() {
-        motion.close();
-        feedback.close();
-        arm.close();
+        own.motion.close();
+        own.feedback.close();
+        own.arm.close();
       },
+    },
+  };
+}
+
+function pendantOf(own: StaubliControllerState): StaubliPendant {
+  return {
+    setMode(mode) {
+      own.machine.setMode(mode);
+    },
+    setEnabling(pressed) {
+      own.machine.setEnabling(pressed);
+    },
+    acknowledge() {
+      own.machine.acknowledge();
+    },
+    setPower(on) {
+      if (!on) own.machine.disablePower();
+      return on ? own.machine.enablePower() : null;
+    },
+    setHold(on) {
+      own.machine.setHold(on);
+    },
+    setMonitorSpeed: percent => own.machine.setMonitorSpeed(percent),
+    setEmergencyStop(pressed) {
+      own.machine.setEmergency(pressed);
+    },
+    setDoorOpen(open) {
+      own.machine.setDoor(open);
+    },
+    fail(because) {
+      own.machine.fail(because);
+    },
+    setInput(signal, value) {
+      own.arm.signals.write(signal, value);
+    },
+    async jog(q_rad, ratio = 1) {
+      if (own.machine.mode !== "manual" || !own.machine.moves)
+        return {
+          kind: "refused",
+          why: {
+            code: "controller.not-manual",
+            sentence:
+              own.machine.mode === "manual"
+                ? "The enabling switch is not pressed."
+                : `The mode is ${own.machine.mode}; the arm is jogged in manual mode.`,
+            hint: "Turn the mode selector to manual and press the enabling switch.",
+          },
+        };
+      const step: MoveStep = {
+        id: "jog",
+        type: "move",
+        path: "ptp",
+        target: { q: Array.from(q_rad) },
+        speed: { ratio },
+        blend_m: 0,
+      };
+      return own.arm.run([slowed(own.robot, step, own.arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
+    },
+    load(text) {
+      const read = own.options.interpret(text);
+      if (read.kind === "not-understood") {
+        const [fault] = read.faults;
+        return `Line ${fault?.line ?? 1}: ${fault?.sentence ?? "The text was not understood."}`;
+      }
+      own.loaded = read;
+      return null;
+    },
+    start() {
+      if (!own.loaded) return Promise.resolve("No program is loaded.");
+      const { context } = own.loaded;
+      const run = new TextRun(own.loaded.run(own.arm.signals));
+      return new Promise(over => {
+        own.stack.start({ run, context, over });
+      });
+    },
+    stop() {
+      own.stack.reset();
     },
   };
 }

@@ -7,7 +7,7 @@ import {
   type Listening,
   type Network,
 } from "../../transport/index.ts";
-import { MessageReader, type Message } from "../codec.ts";
+import { MessageReader, type Message } from "../codec/simple-message.ts";
 
 /** States that a client does not fetch are not piled up for it [bytes]. */
 const MOST_WAITING = 65_536;

@@ -1,13 +1,15 @@
-import type { CommandOutcome, EmittedFile, UploadedProgram, Refusal } from "@twincell/core";
-import type {
-  ControllerAdapter,
-  AdapterEvents,
-  AdapterMotion,
-  AdapterOptions,
-  AdapterOrder,
-  Opened,
+import type { CommandOutcome, EmittedFile, UploadedProgram, Refusal, Robot, Scheduler } from "@twincell/core";
+import {
+  Execution,
+  type ControllerAdapter,
+  type AdapterEvents,
+  type AdapterMotion,
+  type AdapterOptions,
+  type AdapterOrder,
+  type Opened,
+  type Underway,
 } from "../../driver/index.ts";
-import type { ByteStream } from "../../transport/index.ts";
+import type { ByteStream, Network } from "../../transport/index.ts";
 import { REPLIES } from "../codec/dashboard.ts";
 import { JOINTS, modelOf, UR_PORTS } from "../codec/models.ts";
 import {
@@ -71,57 +73,81 @@ const cannotSay = (order: AdapterOrder): Refusal | null =>
  * primary interface.
  */
 export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
-  const { robot, scheduler, network, host } = options;
-  const ports = { ...UR_PORTS, ...options.ports };
-  let open: Open | null = null;
-  let life = 0;
-  let textRunning = false;
-  let stops = 0;
-  let settle: ((outcome: CommandOutcome) => void) | null = null;
-  let awaited = 0;
-  let goal: CommandOutcome = DONE;
+  return urAdapterOf(new UrWire(options));
+}
 
-  const end = (outcome: CommandOutcome): void => {
-    const is = settle;
-    settle = null;
-    is?.(outcome);
+class UrWire extends Execution<Underway> {
+  readonly options: AdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly ports: {
+    dashboard: number;
+    primary: number;
+    secondary: number;
+    realTime: number;
+    rtde: number;
+    primaryCopy: number;
+    secondaryCopy: number;
+    realTimeCopy: number;
   };
-  function closeAll(): void {
-    const was = open;
-    open = null;
-    life++;
+  open: Open | null = null;
+  life = 0;
+  textRunning = false;
+  stops = 0;
+  awaited = 0;
+
+  constructor(options: AdapterOptions) {
+    super();
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.ports = { ...UR_PORTS, ...this.options.ports };
+  }
+
+  readonly closeAll = (): void => {
+    const was = this.open;
+    this.open = null;
+    this.life++;
     for (const stop of was?.stops ?? []) stop();
     was?.rtde.close();
     was?.dashboard.close();
     was?.primary.close();
-    end(stopped(words.ended(robot, "the connection was closed.")));
-  }
+    this.settle(stopped(words.ended(this.robot, "the connection was closed.")));
+  };
+
   /** Looks again and again until it is so, or time is up, or the connection is another. */
-  const until = (so: () => boolean, patience_s: number): Promise<boolean> =>
-    new Promise(resolve => {
+  until(so: () => boolean, patience_s: number): Promise<boolean> {
+    return new Promise(resolve => {
       if (so()) {
         resolve(true);
         return;
       }
-      const mine = life;
-      const end_s = scheduler.now_s() + patience_s;
-      const stop = scheduler.every(LOOK_S, () => {
-        const is = life === mine && so();
-        if (!is && life === mine && scheduler.now_s() < end_s) return;
+      const mine = this.life;
+      const end_s = this.scheduler.now_s() + patience_s;
+      const stop = this.scheduler.every(LOOK_S, () => {
+        const is = this.life === mine && so();
+        if (!is && this.life === mine && this.scheduler.now_s() < end_s) return;
         stop();
         resolve(is);
       });
     });
-  const message = (at: Open): string =>
-    at.said !== ""
+  }
+
+  message(at: Open): string {
+    return at.said !== ""
       ? at.said
       : at.reading.mayMove
         ? ""
         : at.reading.safetyMode === SAFETY_MODE.NORMAL
           ? `Robot mode ${robotModeName(at.reading.robotMode)}.`
           : `Safety mode ${safetyModeName(at.reading.safetyMode)}.`;
+  }
 
-  function onMessage(at: () => Open | null, said: PrimaryMessage): void {
+  onMessage(at: () => Open | null, said: PrimaryMessage): void {
     const is = at();
     if (!is) return;
     if (said.kind === "exception") is.said = `Line ${said.line}: ${said.text}`;
@@ -131,46 +157,47 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
   }
 
   /** What an order waits for: its number among those that have ended, or the end of the program. */
-  function onState(at: Open): void {
+  onState(at: Open): void {
     if (at.reading.echo !== at.echo) {
       at.echo = at.reading.echo;
       at.unheard = 0;
     }
-    if (!settle) return;
+    if (!this.moving) return;
     const { reading } = at;
-    if (textRunning) return;
+    if (this.textRunning) return;
     if (!reading.listens) {
       // Whatever the state is worth: nothing is to move when a motion is said to have ended. A program that a safeguard
       // holds would go on when the guard closes; it is ended, so that only a new command moves the robot.
-      stop(false);
+      this.stop(false);
       if (!reading.isIdle) void at.dashboard.ask("stop");
-      end(stopped(words.ended(robot, message(at))));
-    } else if (reading.ended === awaited) end(goal);
+      this.settle(stopped(words.ended(this.robot, this.message(at))));
+    } else if (reading.ended === this.awaited) this.settle(this.ending ?? DONE);
   }
 
-  async function connected(port: number): Promise<ByteStream | string> {
-    const answer = await network.connect({ host, port });
+  async connected(port: number): Promise<ByteStream | string> {
+    const answer = await this.network.connect({ host: this.host, port });
     return answer.kind === "connected" ? answer.stream : answer.sentence;
   }
-  async function attempt(events: AdapterEvents): Promise<Opened> {
-    const watched = options.isWatched?.() ?? false;
-    const mine = ++life;
-    const isMine = (): boolean => mine === life;
+
+  readonly attempt = async (events: AdapterEvents): Promise<Opened> => {
+    const watched = this.options.isWatched?.() ?? false;
+    const mine = ++this.life;
+    const isMine = (): boolean => mine === this.life;
     const streams: ByteStream[] = [];
     const failed = (why: Refusal, again = true): Opened => {
       for (const stream of streams) stream.close();
-      if (isMine()) life++;
+      if (isMine()) this.life++;
       return { kind: "failed", why, again };
     };
     const lost = (sentence: string): void => {
       if (isMine()) {
-        closeAll();
+        this.closeAll();
         events.lost(sentence);
       }
     };
-    if (robot.arm.joints.length !== JOINTS) return failed(words.jointCount(robot, JOINTS), false);
-    for (const port of [ports.dashboard, ports.primary, ports.rtde]) {
-      const stream = await connected(port);
+    if (this.robot.arm.joints.length !== JOINTS) return failed(words.jointCount(this.robot, JOINTS), false);
+    for (const port of [this.ports.dashboard, this.ports.primary, this.ports.rtde]) {
+      const stream = await this.connected(port);
       if (typeof stream === "string") return failed(words.noAnswer(stream));
       streams.push(stream);
       if (!isMine()) return failed(words.noAnswer("The attempt was given up."));
@@ -178,23 +205,23 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     const [first, second, third] = streams;
     const dashboard = dashboardClient(
       first!,
-      scheduler,
+      this.scheduler,
       seconds => {
         if (isMine()) events.roundTrip(seconds);
       },
       lost,
     );
     const model = await dashboard.ask("get robot model");
-    const wanted = modelOf(robot);
+    const wanted = modelOf(this.robot);
     if (model === null) return failed(words.noAnswer("The dashboard does not answer."));
-    if (model.trim() !== wanted) return failed(words.otherModel(robot, wanted, model.trim()), false);
+    if (model.trim() !== wanted) return failed(words.otherModel(this.robot, wanted, model.trim()), false);
     const isRemote = await dashboard.ask("is in remote control");
     let at: Open | null = null;
-    const rtde = await openRtde(third!, scheduler, OUTPUTS, watched ? [] : INPUTS, RATE_HZ, {
-      state() {
+    const rtde = await openRtde(third!, this.scheduler, OUTPUTS, watched ? [] : INPUTS, RATE_HZ, {
+      state: () => {
         if (!at || !isMine()) return;
-        events.sample(at.reading.read(at.remote, message(at)));
-        if (open === at) onState(at);
+        events.sample(at.reading.read(at.remote, this.message(at)));
+        if (this.open === at) this.onState(at);
       },
       says(sentence) {
         if (at) at.said = sentence;
@@ -206,17 +233,17 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
       return failed(words.noAnswer(rtde.kind === "failed" ? rtde.sentence : "The attempt was given up."));
     }
     const { client } = rtde;
-    const reading = new UrReading(client.state, robot);
+    const reading = new UrReading(client.state, this.robot);
     at = {
       rtde: client,
       dashboard,
       reading,
-      orders: new Orders(client.inputs, robot, Math.floor(scheduler.now_s() * 1000) % 1_000_000),
+      orders: new Orders(client.inputs, this.robot, Math.floor(this.scheduler.now_s() * 1000) % 1_000_000),
       stops: [],
       primary: primaryClient(
         second!,
         said => {
-          if (isMine()) onMessage(() => at, said);
+          if (isMine()) this.onMessage(() => at, said);
         },
         lost,
       ),
@@ -227,9 +254,9 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
       unheard: 0,
       echo: NaN,
     };
-    open = at;
+    this.open = at;
     at.stops.push(
-      scheduler.every(BEAT_S, () => {
+      this.scheduler.every(BEAT_S, () => {
         if (!at) return;
         at.orders.beat();
         at.rtde.send(GROUPS.heartbeat);
@@ -238,7 +265,7 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
     );
     let asking = false;
     at.stops.push(
-      scheduler.every(ASK_REMOTE_S, () => {
+      this.scheduler.every(ASK_REMOTE_S, () => {
         if (asking) return;
         asking = true;
         void dashboard.ask("is in remote control").then(answer => {
@@ -247,177 +274,183 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
         });
       }),
     );
-    if (!(await until(() => reading.robotMode !== 0 || reading.runtime !== 0, STALE_S * 10))) {
-      closeAll();
+    if (!(await this.until(() => reading.robotMode !== 0 || reading.runtime !== 0, STALE_S * 10))) {
+      this.closeAll();
       return { kind: "failed", why: words.noAnswer("RTDE sends no states."), again: true };
     }
     // A program of somebody else's is left alone; it is told when a motion is asked for.
-    if (!watched && reading.mayMove && at.remote && reading.isIdle) await program();
-    return open === at
+    if (!watched && reading.mayMove && at.remote && reading.isIdle) await this.program();
+    return this.open === at
       ? { kind: "open" }
       : { kind: "failed", why: words.noAnswer("The connection broke while it was being opened."), again: true };
-  }
+  };
 
   /** Makes sure that our program listens; why not, else. */
-  async function program(): Promise<Refusal | null> {
-    const at = open;
+  async program(): Promise<Refusal | null> {
+    const at = this.open;
     if (!at) return words.noAnswer("There is no connection.");
     const { reading } = at;
     if (reading.listens) return null;
-    if (!at.remote) return words.inLocal(robot);
+    if (!at.remote) return words.inLocal(this.robot);
     if (!reading.mayMove)
-      return words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode));
-    if (!reading.isIdle) return words.otherProgram(robot);
+      return words.notReady(this.robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode));
+    if (!reading.isIdle) return words.otherProgram(this.robot);
     at.said = "";
     at.orders.beat();
     at.rtde.send(GROUPS.heartbeat);
     at.rtde.send(GROUPS.order);
     at.primary.script(CONTROL_PROGRAM);
-    return (await until(() => (reading.listens && reading.ended === at.orders.number) || at.said !== "", PROGRAM_S)) &&
-      reading.listens
+    return (await this.until(
+      () => (reading.listens && reading.ended === at.orders.number) || at.said !== "",
+      PROGRAM_S,
+    )) && reading.listens
       ? null
-      : words.noStart(robot, at.said);
+      : words.noStart(this.robot, at.said);
   }
 
-  async function order(send: (orders: Orders) => number): Promise<CommandOutcome> {
-    const before = stops;
-    const why = await program();
-    const at = open;
+  async order(send: (orders: Orders) => number): Promise<CommandOutcome> {
+    const before = this.stops;
+    const why = await this.program();
+    const at = this.open;
     if (why || !at) return refused(why ?? words.noAnswer("There is no connection."));
     // While the program was being started a stop may have come: what it stopped is not sent after it.
-    if (stops !== before) return stopped(words.ended(robot, "it was stopped."));
+    if (this.stops !== before) return stopped(words.ended(this.robot, "it was stopped."));
     at.said = "";
-    return new Promise(resolve => {
-      end(stopped(words.ended(robot, "another order came.")));
-      settle = resolve;
-      goal = DONE;
-      awaited = send(at.orders);
-      at.rtde.send(GROUPS.order);
-    });
+    this.settle(stopped(words.ended(this.robot, "another order came.")));
+    return this.execute(
+      resolve => ({ resolve }),
+      () => {
+        this.awaited = send(at.orders);
+        at.rtde.send(GROUPS.order);
+      },
+    );
   }
 
   /** A command of the dashboard whose answer begins as it should. */
-  async function tell(at: Open, command: string, wanted: string): Promise<Refusal | null> {
+  async tell(at: Open, command: string, wanted: string): Promise<Refusal | null> {
     const answer = await at.dashboard.ask(command);
     return answer?.startsWith(wanted) === true ? null : words.dashboardSays(command, answer);
   }
-  async function reset(wanted: () => boolean): Promise<CommandOutcome> {
-    const at = open;
+
+  readonly reset = async (wanted: () => boolean): Promise<CommandOutcome> => {
+    const at = this.open;
     if (!at) return refused(words.noAnswer("There is no connection."));
     const { reading } = at;
     const { safetyMode } = reading;
-    if (!at.remote) return refused(words.inLocal(robot));
-    if (EMERGENCY_STOPS.has(safetyMode)) return refused(words.buttonPressed(robot));
-    if (SAFEGUARD_STOPS.has(safetyMode)) return refused(words.stillGuarded(robot));
+    if (!at.remote) return refused(words.inLocal(this.robot));
+    if (EMERGENCY_STOPS.has(safetyMode)) return refused(words.buttonPressed(this.robot));
+    if (SAFEGUARD_STOPS.has(safetyMode)) return refused(words.stillGuarded(this.robot));
     if (safetyMode === SAFETY_MODE.PROTECTIVE_STOP) {
       const answer = await at.dashboard.ask("unlock protective stop");
-      if (answer === REPLIES.tooSoon) return refused(words.tooSoon(robot));
+      if (answer === REPLIES.tooSoon) return refused(words.tooSoon(this.robot));
       if (answer !== REPLIES.unlocking) return refused(words.dashboardSays("unlock protective stop", answer));
     } else if (safetyMode === SAFETY_MODE.FAULT || safetyMode === SAFETY_MODE.VIOLATION) {
-      const why = await tell(at, "restart safety", "Restarting");
+      const why = await this.tell(at, "restart safety", "Restarting");
       if (why) return refused(why);
     }
     if (
-      !(await until(
+      !(await this.until(
         () => !wanted() || reading.safetyMode === SAFETY_MODE.NORMAL || reading.safetyMode === SAFETY_MODE.REDUCED,
         PROGRAM_S,
       ))
     )
-      return refused(words.tookTooLong(robot, "free of its safety stop", PROGRAM_S));
-    if (!wanted()) return refused(stoppedInReset(robot));
+      return refused(words.tookTooLong(this.robot, "free of its safety stop", PROGRAM_S));
+    if (!wanted()) return refused(stoppedInReset(this.robot));
     if (reading.robotMode < ROBOT_MODE.IDLE) {
-      const why = await tell(at, "power on", REPLIES.poweringOn);
+      const why = await this.tell(at, "power on", REPLIES.poweringOn);
       if (why) return refused(why);
-      if (!(await until(() => !wanted() || reading.robotMode >= ROBOT_MODE.IDLE, POWER_S)))
-        return refused(words.tookTooLong(robot, "powered on", POWER_S));
+      if (!(await this.until(() => !wanted() || reading.robotMode >= ROBOT_MODE.IDLE, POWER_S)))
+        return refused(words.tookTooLong(this.robot, "powered on", POWER_S));
     }
-    if (!wanted()) return refused(stoppedInReset(robot));
+    if (!wanted()) return refused(stoppedInReset(this.robot));
     if (reading.robotMode !== ROBOT_MODE.RUNNING) {
-      const why = await tell(at, "brake release", REPLIES.releasing);
+      const why = await this.tell(at, "brake release", REPLIES.releasing);
       if (why) return refused(why);
-      if (!(await until(() => !wanted() || reading.robotMode === ROBOT_MODE.RUNNING, POWER_S)))
-        return refused(words.tookTooLong(robot, "free of its brakes", POWER_S));
+      if (!(await this.until(() => !wanted() || reading.robotMode === ROBOT_MODE.RUNNING, POWER_S)))
+        return refused(words.tookTooLong(this.robot, "free of its brakes", POWER_S));
     }
-    if (!wanted()) return refused(stoppedInReset(robot));
+    if (!wanted()) return refused(stoppedInReset(this.robot));
     at.said = "";
-    const why = reading.isIdle ? await program() : null;
+    const why = reading.isIdle ? await this.program() : null;
     return why ? refused(why) : DONE;
-  }
+  };
 
   /**
    * Our own program makes room for it; it is sent when it is to start, because a UR begins with a text as soon as it
    * has it.
    */
-  async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
-    const at = open;
+  readonly handText = async (files: readonly EmittedFile[]): Promise<UploadedProgram> => {
+    const at = this.open;
     const text = files[0]?.text;
     const no = (why: Refusal): UploadedProgram => {
-      textRunning = false;
+      this.textRunning = false;
       return { kind: "refused", why };
     };
     if (!at) return no(words.noAnswer("There is no connection."));
     if (text === undefined || text.trim() === "") return no(words.noText());
     const { reading } = at;
-    const before = stops;
-    if (!at.remote) return no(words.inLocal(robot));
+    const before = this.stops;
+    if (!at.remote) return no(words.inLocal(this.robot));
     if (!reading.mayMove)
-      return no(words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
-    textRunning = true;
+      return no(words.notReady(this.robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
+    this.textRunning = true;
     if (reading.listens) {
-      const why = await tell(at, "stop", REPLIES.stopped);
-      if (why || !(await until(() => reading.isIdle, PROGRAM_S))) return no(why ?? words.otherProgram(robot));
+      const why = await this.tell(at, "stop", REPLIES.stopped);
+      if (why || !(await this.until(() => reading.isIdle, PROGRAM_S))) return no(why ?? words.otherProgram(this.robot));
     }
-    if (!reading.isIdle) return no(words.otherProgram(robot));
+    if (!reading.isIdle) return no(words.otherProgram(this.robot));
     return {
       kind: "handed",
-      drop() {
-        textRunning = false;
+      drop: () => {
+        this.textRunning = false;
       },
-      start: () => startText(at, text, before),
+      start: () => this.startText(at, text, before),
     };
-  }
-  async function startText(at: Open, text: string, before: number): Promise<CommandOutcome> {
+  };
+
+  async startText(at: Open, text: string, before: number): Promise<CommandOutcome> {
     const { reading } = at;
     try {
-      if (open !== at || stops !== before)
-        return stopped(words.ended(robot, open === at ? "it was stopped." : "the connection was closed."));
-      if (!reading.isIdle) return refused(words.otherProgram(robot));
+      if (this.open !== at || this.stops !== before)
+        return stopped(words.ended(this.robot, this.open === at ? "it was stopped." : "the connection was closed."));
+      if (!reading.isIdle) return refused(words.otherProgram(this.robot));
       at.said = "";
       at.primary.script(text);
-      const began = await until(() => reading.isPlaying || at.said !== "", PROGRAM_S);
-      if (!began) return refused(words.noStart(robot, at.said));
-      await until(() => reading.isIdle, Infinity);
+      const began = await this.until(() => reading.isPlaying || at.said !== "", PROGRAM_S);
+      if (!began) return refused(words.noStart(this.robot, at.said));
+      await this.until(() => reading.isIdle, Infinity);
       // What went wrong may be told just after the program has ended.
-      await until(() => at.said !== "", 2 * LOOK_S);
+      await this.until(() => at.said !== "", 2 * LOOK_S);
       if (at.said !== "") return stopped(words.programFailed(at.said));
-      return open === at && reading.mayMove ? DONE : stopped(words.ended(robot, message(at)));
+      return this.open === at && reading.mayMove ? DONE : stopped(words.ended(this.robot, this.message(at)));
     } finally {
-      textRunning = false;
+      this.textRunning = false;
     }
   }
-  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-    const handed = await handText(files);
-    return handed.kind === "refused" ? handed : handed.start();
-  }
 
-  function stop(emergency: boolean): void {
-    const at = open;
-    stops++;
+  readonly runText = async (files: readonly EmittedFile[]): Promise<CommandOutcome> => {
+    const handed = await this.handText(files);
+    return handed.kind === "refused" ? handed : handed.start();
+  };
+
+  readonly stop = (emergency: boolean): void => {
+    const at = this.open;
+    this.stops++;
     if (!at) return;
     // Whatever program runs there: of one that is only watched nothing else is known.
-    if (textRunning || at.watched || at.rtde.waiting > 0) void at.dashboard.ask("stop");
+    if (this.textRunning || at.watched || at.rtde.waiting > 0) void at.dashboard.ask("stop");
     const number = at.orders.stop();
     at.rtde.send(GROUPS.order);
-    awaited = number;
-    goal = stopped(words.ended(robot, "it was stopped."));
+    this.awaited = number;
+    this.ending = stopped(words.ended(this.robot, "it was stopped."));
     if (emergency) {
       void at.dashboard.ask("power off");
       return;
     }
-    const look = scheduler.every(STOP_CONFIRMED_S, () => {
+    const look = this.scheduler.every(STOP_CONFIRMED_S, () => {
       look();
       if (
-        open === at &&
+        this.open === at &&
         at.reading.isPlaying &&
         at.reading.ended !== number &&
         at.reading.sample.moving &&
@@ -425,43 +458,45 @@ export function createUrAdapter(options: AdapterOptions): ControllerAdapter {
       )
         void at.dashboard.ask("stop");
     });
-  }
+  };
+}
 
+function urAdapterOf(wire: UrWire): ControllerAdapter {
   return {
     brand: "Universal Robots",
-    robot,
+    robot: wire.robot,
     stale_s: STALE_S,
     watchdog: { kind: "robot", within_s: WATCHDOG_S },
-    open: attempt,
-    close: closeAll,
+    open: wire.attempt,
+    close: wire.closeAll,
     cannotSay,
-    move: (motion: AdapterMotion) => order(orders => orders.motion(motion)),
-    stop,
+    move: (motion: AdapterMotion) => wire.order(orders => orders.motion(motion)),
+    stop: wire.stop,
     setOverride(ratio) {
-      if (!open) return words.noAnswer("There is no connection.");
-      if (!open.remote) return words.inLocal(robot);
-      open.orders.slider(ratio);
-      open.rtde.send(GROUPS.slider);
+      if (!wire.open) return words.noAnswer("There is no connection.");
+      if (!wire.open.remote) return words.inLocal(wire.robot);
+      wire.open.orders.slider(ratio);
+      wire.open.rtde.send(GROUPS.slider);
       return null;
     },
-    reset,
+    reset: wire.reset,
     setSignal(signal, value) {
       const why = cannotSay({ kind: "signal", signal, value });
       if (why) return why;
-      if (!open) return words.noAnswer("There is no connection.");
-      open.rtde.send(open.orders.line(signal, value));
+      if (!wire.open) return words.noAnswer("There is no connection.");
+      wire.open.rtde.send(wire.open.orders.line(signal, value));
       return null;
     },
     setGripper(closed) {
       return this.setSignal(`digital_out_${GRIPPER_LINE}`, closed);
     },
     setPayload(mass_kg, center_m) {
-      if (!open) return words.noAnswer("There is no connection.");
-      open.orders.payload(mass_kg, center_m);
-      open.rtde.send(GROUPS.order);
+      if (!wire.open) return words.noAnswer("There is no connection.");
+      wire.open.orders.payload(mass_kg, center_m);
+      wire.open.rtde.send(GROUPS.order);
       return null;
     },
-    runText,
-    handText,
+    runText: wire.runText,
+    handText: wire.handText,
   };
 }

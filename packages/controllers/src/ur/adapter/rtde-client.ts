@@ -50,7 +50,7 @@ const named = (table: ReadonlyMap<string, Field>, names: readonly string[]): Fie
   names.flatMap(name => table.get(name) ?? []);
 
 /** Sets up protocol 2 with these outputs and groups of inputs, and starts. The stream is this client's from here on. */
-export async function openRtde(
+export function openRtde(
   stream: ByteStream,
   scheduler: Scheduler,
   outputs: readonly string[],
@@ -58,126 +58,174 @@ export async function openRtde(
   frequency_Hz: number,
   events: RtdeEvents,
 ): Promise<RtdeOpened> {
-  const frames = rtdeFrames();
-  const state = new Float64Array(SLOTS);
-  const inputs = new Float64Array(SLOTS);
-  const recipes: { recipe: Recipe; buffer: Uint8Array; view: DataView }[] = [];
-  let waitsFor = 0;
-  let answer: ((payload: Uint8Array | null) => void) | null = null;
-  let output: Recipe | null = null;
-  let running = false;
-  let over = false;
-  let version: Version = [0, 0, 0, 0];
+  return new RtdeOpening(stream, scheduler, outputs, groups, frequency_Hz, events).open();
+}
 
-  function end(sentence: string | null): void {
-    if (over) return;
-    over = true;
-    stream.close();
-    answer?.(null);
-    if (sentence === null) return;
-    said = sentence;
-    if (running) events.lost(sentence);
+class RtdeOpening {
+  readonly stream: ByteStream;
+  readonly scheduler: Scheduler;
+  readonly outputs: readonly string[];
+  readonly groups: readonly (readonly string[])[];
+  readonly frequency_Hz: number;
+  readonly events: RtdeEvents;
+  readonly frames = rtdeFrames();
+  readonly state = new Float64Array(SLOTS);
+  readonly inputs = new Float64Array(SLOTS);
+  readonly recipes: { recipe: Recipe; buffer: Uint8Array; view: DataView }[] = [];
+  waitsFor = 0;
+  answer: ((payload: Uint8Array | null) => void) | null = null;
+  output: Recipe | null = null;
+  running = false;
+  over = false;
+  version: Version = [0, 0, 0, 0];
+  said = `RTDE did not answer for ${PATIENCE_S} s.`;
+  protocol!: Uint8Array | null;
+  built!: Uint8Array | null;
+  wanted!: Field[];
+  set!: Uint8Array | null;
+  id!: number;
+  types!: string[];
+  missing!: string[];
+  begun!: Uint8Array | null;
+
+  constructor(
+    stream: ByteStream,
+    scheduler: Scheduler,
+    outputs: readonly string[],
+    groups: readonly (readonly string[])[],
+    frequency_Hz: number,
+    events: RtdeEvents,
+  ) {
+    this.stream = stream;
+    this.scheduler = scheduler;
+    this.outputs = outputs;
+    this.groups = groups;
+    this.frequency_Hz = frequency_Hz;
+    this.events = events;
+    this.stream.onEnd(ending => {
+      this.end(ending.sentence);
+    });
+    this.stream.onBytes(lent => {
+      const why = this.frames.push(lent, this.take);
+      if (why !== null) this.end(why);
+    });
   }
-  let said = `RTDE did not answer for ${PATIENCE_S} s.`;
-  function take(type: number, payload: Uint8Array): void {
-    if (over) return;
+
+  async open(): Promise<RtdeOpened> {
+    this.protocol = await this.ask(RTDE.protocolVersion, askProtocol(2));
+    if (!this.protocol) return this.failed(this.said);
+    if (this.protocol[0] !== 1)
+      return this.failed("The controller does not speak protocol 2 of RTDE: its software is too old.");
+    this.built = await this.ask(RTDE.controllerVersion, askVersion());
+    if (!this.built) return this.failed(this.said);
+    this.version = readVersion(this.built) ?? this.version;
+    this.wanted = named(OUTPUT_FIELDS, this.outputs);
+    this.set = await this.ask(RTDE.outputs, askOutputs(this.outputs, this.frequency_Hz));
+    if (!this.set) return this.failed(this.said);
+    this.id = recipeAnswered(this.set, true).id;
+    this.types = recipeAnswered(this.set, true).types;
+    this.missing = unexpected(this.wanted, this.types);
+    if (this.missing.length > 0) return this.failed(`The controller does not tell ${this.missing.join(", ")}.`);
+    this.output = recipeOf(this.id, this.wanted);
+    for (const names of this.groups) {
+      const fields = named(INPUT_FIELDS, names);
+      const had = await this.ask(RTDE.inputs, askInputs(names));
+      if (!had) return this.failed(this.said);
+      const is = recipeAnswered(had, true);
+      const taken = fields.filter((_, i) => is.types[i] === "IN_USE");
+      if (taken.length > 0)
+        return this.failed(`Another client writes ${taken.map(({ name }) => name).join(", ")}: one driver at a time.`);
+      const wrong = unexpected(fields, is.types);
+      if (wrong.length > 0 || is.id === 0) return this.failed(`The controller does not take ${wrong.join(", ")}.`);
+      const recipe = recipeOf(is.id, fields);
+      const buffer = dataBuffer(recipe, true);
+      this.recipes.push({ recipe, buffer, view: viewOf(buffer) });
+    }
+    this.running = true;
+    this.begun = await this.ask(RTDE.start, start());
+    if (!this.begun || this.begun[0] !== 1) {
+      this.running = false;
+      return this.failed(this.begun ? "The controller does not start sending states." : this.said);
+    }
+    // The end may have come with the answer.
+    if (this.over) return { kind: "failed", sentence: this.said };
+    return rtdeClientOf(this);
+  }
+
+  end(sentence: string | null): void {
+    if (this.over) return;
+    this.over = true;
+    this.stream.close();
+    this.answer?.(null);
+    if (sentence === null) return;
+    this.said = sentence;
+    if (this.running) this.events.lost(sentence);
+  }
+
+  readonly take = (type: number, payload: Uint8Array): void => {
+    if (this.over) return;
     if (type === RTDE.data) {
       // Packages under way while a recipe changes are of another length.
-      if (output && running && payload[0] === output.id && unpackData(output, payload.subarray(1), state))
-        events.state();
+      if (
+        this.output &&
+        this.running &&
+        payload[0] === this.output.id &&
+        unpackData(this.output, payload.subarray(1), this.state)
+      )
+        this.events.state();
       return;
     }
     if (type === RTDE.text) {
-      events.says(readText(payload, 2).message);
+      this.events.says(readText(payload, 2).message);
       return;
     }
-    if (type !== waitsFor || !answer) return;
-    const waiting = answer;
-    answer = null;
+    if (type !== this.waitsFor || !this.answer) return;
+    const waiting = this.answer;
+    this.answer = null;
     waiting(payload.slice());
-  }
-  stream.onEnd(ending => {
-    end(ending.sentence);
-  });
-  stream.onBytes(lent => {
-    const why = frames.push(lent, take);
-    if (why !== null) end(why);
-  });
+  };
 
-  const ask = (type: number, bytes: Uint8Array): Promise<Uint8Array | null> =>
-    over
+  ask(type: number, bytes: Uint8Array): Promise<Uint8Array | null> {
+    return this.over
       ? Promise.resolve(null)
       : new Promise(resolve => {
-          waitsFor = type;
-          const stop = scheduler.every(PATIENCE_S, () => {
+          this.waitsFor = type;
+          const stop = this.scheduler.every(PATIENCE_S, () => {
             stop();
-            end(said);
+            this.end(this.said);
           });
-          answer = payload => {
+          this.answer = payload => {
             stop();
             resolve(payload);
           };
-          stream.send(bytes);
+          this.stream.send(bytes);
         });
-  const failed = (sentence: string): RtdeOpened => {
-    end(null);
+  }
+
+  failed(sentence: string): RtdeOpened {
+    this.end(null);
     return { kind: "failed", sentence };
-  };
-
-  const protocol = await ask(RTDE.protocolVersion, askProtocol(2));
-  if (!protocol) return failed(said);
-  if (protocol[0] !== 1) return failed("The controller does not speak protocol 2 of RTDE: its software is too old.");
-  const built = await ask(RTDE.controllerVersion, askVersion());
-  if (!built) return failed(said);
-  version = readVersion(built) ?? version;
-
-  const wanted = named(OUTPUT_FIELDS, outputs);
-  const set = await ask(RTDE.outputs, askOutputs(outputs, frequency_Hz));
-  if (!set) return failed(said);
-  const { id, types } = recipeAnswered(set, true);
-  const missing = unexpected(wanted, types);
-  if (missing.length > 0) return failed(`The controller does not tell ${missing.join(", ")}.`);
-  output = recipeOf(id, wanted);
-
-  for (const names of groups) {
-    const fields = named(INPUT_FIELDS, names);
-    const had = await ask(RTDE.inputs, askInputs(names));
-    if (!had) return failed(said);
-    const is = recipeAnswered(had, true);
-    const taken = fields.filter((_, i) => is.types[i] === "IN_USE");
-    if (taken.length > 0)
-      return failed(`Another client writes ${taken.map(({ name }) => name).join(", ")}: one driver at a time.`);
-    const wrong = unexpected(fields, is.types);
-    if (wrong.length > 0 || is.id === 0) return failed(`The controller does not take ${wrong.join(", ")}.`);
-    const recipe = recipeOf(is.id, fields);
-    const buffer = dataBuffer(recipe, true);
-    recipes.push({ recipe, buffer, view: viewOf(buffer) });
   }
-  running = true;
-  const begun = await ask(RTDE.start, start());
-  if (!begun || begun[0] !== 1) {
-    running = false;
-    return failed(begun ? "The controller does not start sending states." : said);
-  }
-  // The end may have come with the answer.
-  if (over) return { kind: "failed", sentence: said };
+}
+
+function rtdeClientOf(own: RtdeOpening): RtdeOpened {
   return {
     kind: "open",
     client: {
-      state,
-      inputs,
-      version,
+      state: own.state,
+      inputs: own.inputs,
+      version: own.version,
       get waiting() {
-        return stream.waiting;
+        return own.stream.waiting;
       },
       send(group) {
-        const entry = recipes[group];
-        if (!entry || over) return;
-        packData(entry.recipe, inputs, entry.buffer, entry.view);
-        stream.send(entry.buffer);
+        const entry = own.recipes[group];
+        if (!entry || own.over) return;
+        packData(entry.recipe, own.inputs, entry.buffer, entry.view);
+        own.stream.send(entry.buffer);
       },
       close() {
-        end(null);
+        own.end(null);
       },
     },
   };

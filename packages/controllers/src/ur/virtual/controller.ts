@@ -1,6 +1,6 @@
-import type { Pose } from "@twincell/core";
+import type { Pose, JointLimits, Robot, Scheduler, JointSample } from "@twincell/core";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import type { ByteStream, Listening } from "../../transport/index.ts";
+import type { ByteStream, Listening, Network } from "../../transport/index.ts";
 import type { StartedDriver, VendorVirtual, VendorVirtualOptions } from "../../driver/index.ts";
 import { JOINTS, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
 import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
@@ -17,7 +17,7 @@ import {
 } from "../codec/primary.ts";
 import type { Version } from "../codec/rtde.ts";
 import type { Field } from "../codec/rtde-fields.ts";
-import type { ScriptFault } from "../script/index.ts";
+import type { ScriptFault } from "./script/index.ts";
 import { DashboardServer } from "./dashboard-server.ts";
 import { noFaults, Outbox, type UrFaults } from "./faults.ts";
 import { GRIPPER_BIT, NamedLines } from "./lines.ts";
@@ -26,7 +26,7 @@ import { Mover } from "./mover.ts";
 import { urPendant, type Panel, type UrPendant } from "./pendant.ts";
 import { Programs } from "./programs.ts";
 import { RtdeServer } from "./rtde-server.ts";
-import { ScriptServer } from "./script-server.ts";
+import { ScriptServer, type ScriptServerOptions } from "./script-server.ts";
 import { stateFiller } from "./state-filler.ts";
 import { States } from "./states.ts";
 
@@ -93,121 +93,319 @@ const VIOLATION = 2;
  * virtual robot that moves.
  */
 export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStarted> {
-  const { robot, network, scheduler } = options;
-  const version = options.version ?? DEFAULTS.version;
-  const host = options.host ?? DEFAULTS.host;
-  const log =
-    options.log ??
-    (() => {
-      /* Nobody listens. */
-    });
-  if (robot.arm.joints.length !== JOINTS)
-    return {
-      kind: "taken",
-      sentence: `${robot.name} has ${robot.arm.joints.length} joints; robots of Universal Robots have ${JOINTS}.`,
-    };
-  const neutral: VirtualController = createVirtualController({
-    robot,
-    scheduler,
-    cycle_s: CYCLE_S,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
-    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
-    ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}),
-    ...(options.onMotion ? { onMotion: options.onMotion } : {}),
-  });
-  const memory = new Memory();
-  const mover = new Mover(neutral, robot, CYCLE_S);
-  const lines = new NamedLines(memory, neutral.signals);
-  const faults = noFaults();
-  let cycles = 0;
-  let booted_s = options.booted_s ?? DEFAULTS.booted_s;
-  let frozen = false;
-  let gripper = false;
-  let isClosed = false;
-  const panel: Panel = { remote: options.remote ?? true, operational: "NONE", fraction: 1 };
-  const now_s = (): number => cycles * CYCLE_S;
-  const time_us = (): number => Math.round((booted_s + now_s()) * 1e6);
+  const { name, arm } = options.robot;
+  return arm.joints.length === JOINTS
+    ? openUr(options)
+    : {
+        kind: "taken",
+        sentence: `${name} has ${arm.joints.length} joints; robots of Universal Robots have ${JOINTS}.`,
+      };
+}
+
+function openUr(options: VirtualUrOptions): Promise<UrStarted> {
+  return new UrControllerState(options).open();
+}
+
+class UrControllerState {
+  readonly options: VirtualUrOptions;
+  readonly robot: Robot;
+  readonly network: Network;
+  readonly scheduler: Scheduler;
+  readonly version: Version;
+  readonly host: string;
+  readonly log: (sentence: string) => void;
+  readonly neutral: VirtualController;
+  readonly memory = new Memory();
+  readonly mover: Mover;
+  readonly lines: NamedLines;
+  readonly faults = noFaults();
+  cycles = 0;
+  booted_s: number;
+  frozen = false;
+  gripper = false;
+  isClosed = false;
+  readonly panel: Panel;
   // Delays are the wire's, not the controller's: they go on while it hangs.
-  const outbox = new Outbox(faults, () => scheduler.now_s());
+  readonly outbox: Outbox;
+  readonly states: States;
+  readonly programs: Programs;
+  readonly GROUPS = [
+    ["standard", 0, 8],
+    ["configurable", 8, 8],
+    ["tool", 16, 2],
+  ] as const;
+  readonly model: string;
+  readonly common: { outbox: Outbox; log: (sentence: string) => void };
+  readonly rtde: RtdeServer;
+  readonly dashboard: DashboardServer;
+  readonly joints: JointLimits[];
+  readonly arm: PrimaryArm;
+  readonly tcp = new Float64Array(6);
+  readonly offset = new Float64Array(6);
+  readonly slotTcp: number;
+  readonly slotOffset: number;
+  readonly primary: ScriptServer;
+  readonly secondary: ScriptServer;
+  readonly realTime: ScriptServer;
+  readonly primaryCopy: ScriptServer;
+  readonly secondaryCopy: ScriptServer;
+  readonly realTimeCopy: ScriptServer;
+  readonly packageTellers: ScriptServer[];
+  readonly streams: ScriptServer[];
+  readonly realTimePackage = realTimeWriter();
+  readonly fill: (time_s: number, q: Float64Array, fraction: number) => void;
+  readonly wanted: {
+    dashboard: number;
+    primary: number;
+    secondary: number;
+    realTime: number;
+    rtde: number;
+    primaryCopy: number;
+    secondaryCopy: number;
+    realTimeCopy: number;
+  };
+  readonly routes: Extract<Listening, { kind: "listening" }>[] = [];
+  readonly servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>>;
+  readonly ports: Record<keyof UrPorts, number>;
 
-  const tell = (bytes: Uint8Array): void => {
-    primary.tell(bytes);
-    primaryCopy.tell(bytes);
-  };
-  const states = new States({
-    powerOn_s: options.powerOn_s ?? DEFAULTS.powerOn_s,
-    brakes_s: options.brakes_s ?? DEFAULTS.brakes_s,
-    onStop(how, because) {
-      log(because);
-      if (how === "hold" && programs.pause()) return;
-      programs.end();
-    },
-    onResume() {
-      programs.resume();
-    },
-    onSafety(mode) {
-      tell(safetyModeMessage(time_us(), mode));
-    },
-  });
-  const onFault = ({ line, column, sentence }: ScriptFault): void => {
-    log(`Line ${line}: ${sentence}`);
-    tell(exceptionMessage(time_us(), line, column, sentence));
-  };
-  const protectiveStop = (because: string): void => {
-    states.protectiveStop(because, now_s());
-    tell(errorMessage(time_us(), 0, VIOLATION, because));
-  };
-  const programs: Programs = new Programs({
-    mover,
-    lines,
-    interpret: options.interpret,
-    onFault,
-    host: {
-      robot,
-      memory,
-      mover,
+  constructor(options: VirtualUrOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.network = this.options.network;
+    this.scheduler = this.options.scheduler;
+    this.version = this.options.version ?? DEFAULTS.version;
+    this.host = this.options.host ?? DEFAULTS.host;
+    this.log =
+      this.options.log ??
+      (() => {
+        /* Nobody listens. */
+      });
+    this.neutral = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
       cycle_s: CYCLE_S,
-      now_s,
-      protectiveStop,
-      say: text => {
-        tell(textMessage(time_us(), text));
-      },
-    },
-    onStarted: name => {
-      tell(keyMessage(time_us(), "PROGRAM_XXX_STARTED", name));
-    },
-    onStopped: name => {
-      tell(keyMessage(time_us(), "PROGRAM_XXX_STOPPED", name));
-    },
-  });
+      ...(this.options.start_rad ? { start_rad: this.options.start_rad } : {}),
+      ...(this.options.maxSpeed === undefined ? {} : { maxSpeed: this.options.maxSpeed }),
+      ...(this.options.worldFromBase ? { worldFromBase: this.options.worldFromBase } : {}),
+      ...(this.options.onMotion ? { onMotion: this.options.onMotion } : {}),
+    });
+    this.mover = new Mover(this.neutral, this.robot, CYCLE_S);
+    this.lines = new NamedLines(this.memory, this.neutral.signals);
+    this.booted_s = this.options.booted_s ?? DEFAULTS.booted_s;
+    this.panel = { remote: this.options.remote ?? true, operational: "NONE", fraction: 1 };
+    this.outbox = new Outbox(this.faults, () => this.scheduler.now_s());
+    this.states = this.makeStates();
+    this.programs = this.makePrograms();
+    this.model = this.options.model ?? modelOf(this.robot);
+    this.common = { outbox: this.outbox, log: this.log };
+    this.rtde = new RtdeServer({
+      ...this.common,
+      memory: this.memory,
+      version: this.version,
+      cycle_s: CYCLE_S,
+      now_s: this.now_s,
+      onInputs: this.onInputs,
+    });
+    this.dashboard = this.makeDashboard();
+    this.joints = this.robot.arm.joints.map(({ limits }) => limits);
+    this.arm = {
+      lower_rad: this.joints.map(limits => limits.lower_rad),
+      upper_rad: this.joints.map(limits => limits.upper_rad),
+      speed_rad_s: this.joints.map(limits => limits.speed_rad_s),
+      acceleration_rad_s2: this.joints.map(limits => limits.acceleration_rad_s2),
+      type: typeOf(this.model),
+    };
+    this.slotTcp = this.memory.slotOf("actual_TCP_pose");
+    this.slotOffset = this.memory.slotOf("tcp_offset");
+    const { greeting, onScript } = this;
+    const script = (name: string, way: Pick<ScriptServerOptions, "greeting" | "onScript">): ScriptServer =>
+      new ScriptServer({ ...this.common, name, ...way });
+    this.primary = script("Primary interface", { greeting, onScript });
+    this.secondary = script("Secondary interface", { greeting, onScript });
+    this.realTime = script("Real-time interface", { greeting: () => [], onScript });
+    this.primaryCopy = script("Primary interface, read-only", { greeting });
+    this.secondaryCopy = script("Secondary interface, read-only", { greeting });
+    this.realTimeCopy = script("Real-time interface, read-only", { greeting: () => [] });
+    this.packageTellers = [this.primary, this.secondary, this.primaryCopy, this.secondaryCopy];
+    this.streams = [this.realTime, this.realTimeCopy];
+    this.fill = stateFiller(this.robot, this.memory, this.mover, this.states, this.programs);
+    this.states.begin(this.options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
+    this.neutral.onSample(sample => {
+      this.cycle(sample);
+    });
+    this.wanted = { ...UR_PORTS, ...this.options.ports };
+    this.servers = {
+      dashboard: this.dashboard,
+      primary: this.primary,
+      secondary: this.secondary,
+      realTime: this.realTime,
+      rtde: this.rtde,
+      primaryCopy: this.primaryCopy,
+      secondaryCopy: this.secondaryCopy,
+      realTimeCopy: this.realTimeCopy,
+    };
+    this.ports = { ...this.wanted };
+  }
 
-  function onScript(text: string, answer: (bytes: Uint8Array) => void): void {
-    if (!panel.remote) {
-      answer(errorMessage(time_us(), READ_ONLY, 1, "The controller is not in remote control."));
+  private makeStates(): States {
+    return new States({
+      powerOn_s: this.options.powerOn_s ?? DEFAULTS.powerOn_s,
+      brakes_s: this.options.brakes_s ?? DEFAULTS.brakes_s,
+      onStop: (how, because) => {
+        this.log(because);
+        if (how === "hold" && this.programs.pause()) return;
+        this.programs.end();
+      },
+      onResume: () => {
+        this.programs.resume();
+      },
+      onSafety: mode => {
+        this.tell(safetyModeMessage(this.time_us(), mode));
+      },
+    });
+  }
+
+  private makePrograms(): Programs {
+    return new Programs({
+      mover: this.mover,
+      lines: this.lines,
+      interpret: this.options.interpret,
+      onFault: this.onFault,
+      host: {
+        robot: this.robot,
+        memory: this.memory,
+        mover: this.mover,
+        cycle_s: CYCLE_S,
+        now_s: this.now_s,
+        protectiveStop: this.protectiveStop,
+        say: text => {
+          this.tell(textMessage(this.time_us(), text));
+        },
+      },
+      onStarted: name => {
+        this.tell(keyMessage(this.time_us(), "PROGRAM_XXX_STARTED", name));
+      },
+      onStopped: name => {
+        this.tell(keyMessage(this.time_us(), "PROGRAM_XXX_STOPPED", name));
+      },
+    });
+  }
+
+  private makeDashboard(): DashboardServer {
+    return new DashboardServer({
+      ...this.common,
+      states: this.states,
+      programs: this.programs,
+      version: this.version,
+      model: this.model,
+      now_s: this.now_s,
+      serial: this.options.serial ?? DEFAULTS.serial,
+      isRemote: () => this.panel.remote,
+      operationalMode: () => this.panel.operational,
+      setOperationalMode: mode => {
+        this.panel.operational = mode;
+      },
+      file: name => this.options.files?.get(name),
+    });
+  }
+
+  /** One cycle of the controller. */
+  private cycle(sample: JointSample): void {
+    this.outbox.cycle();
+    if (this.frozen !== this.faults.frozen) {
+      this.frozen = this.faults.frozen;
+      this.mover.hold(this.frozen);
+    }
+    if (this.frozen) return;
+    this.cycles++;
+    if (sample.gripperClosed !== this.gripper) {
+      this.gripper = sample.gripperClosed;
+      this.memory.setDigital("output", GRIPPER_BIT, this.gripper);
+    }
+    const q = this.mover.cycle(sample);
+    this.fill(this.booted_s + this.now_s(), q, this.panel.fraction);
+    this.states.cycle(this.now_s());
+    const ended = this.programs.cycle();
+    if (ended !== "") {
+      this.log(ended);
+      this.tell(errorMessage(this.time_us(), 0, 1, ended));
+    }
+    this.rtde.cycle(this.cycles);
+    if (this.realTime.clients + this.realTimeCopy.clients > 0) {
+      const bytes = this.realTimePackage(this.memory.slots);
+      for (const server of this.streams) server.tell(bytes, true);
+    }
+    if (this.cycles % PRIMARY_CYCLES === 0 && this.packageTellers.some(({ clients }) => clients > 0)) {
+      const bytes = this.packaged();
+      for (const server of this.packageTellers) server.tell(bytes, true);
+    }
+  }
+
+  async open(): Promise<UrStarted> {
+    for (const name of Object.keys(this.servers) as (keyof UrPorts)[]) {
+      const route = await this.network.listen({ host: this.host, port: this.wanted[name] }, stream => {
+        if (this.faults.refusing || this.isClosed) stream.close();
+        else this.servers[name].accept(stream);
+      });
+      if (route.kind === "taken") {
+        for (const open of this.routes) open.close();
+        this.neutral.close();
+        return route;
+      }
+      this.ports[name] = route.address.port;
+      this.routes.push(route);
+    }
+    return startedUr(this);
+  }
+
+  readonly now_s = (): number => this.cycles * CYCLE_S;
+
+  time_us(): number {
+    return Math.round((this.booted_s + this.now_s()) * 1e6);
+  }
+
+  tell(bytes: Uint8Array): void {
+    this.primary.tell(bytes);
+    this.primaryCopy.tell(bytes);
+  }
+
+  readonly onFault = ({ line, column, sentence }: ScriptFault): void => {
+    this.log(`Line ${line}: ${sentence}`);
+    this.tell(exceptionMessage(this.time_us(), line, column, sentence));
+  };
+
+  readonly protectiveStop = (because: string): void => {
+    this.states.protectiveStop(because, this.now_s());
+    this.tell(errorMessage(this.time_us(), 0, VIOLATION, because));
+  };
+
+  readonly onScript = (text: string, answer: (bytes: Uint8Array) => void): void => {
+    if (!this.panel.remote) {
+      answer(errorMessage(this.time_us(), READ_ONLY, 1, "The controller is not in remote control."));
       return;
     }
     switch (text.trim().toLowerCase()) {
       case "power on":
-        states.powerOn(now_s());
+        this.states.powerOn(this.now_s());
         return;
       case "power off":
-        states.powerOff();
+        this.states.powerOff();
         return;
       case "set robotmode run":
-        states.powerOn(now_s(), ROBOT_MODE.RUNNING);
+        this.states.powerOn(this.now_s(), ROBOT_MODE.RUNNING);
         return;
       case "set unlock protective stop":
-        states.unlock(now_s());
+        this.states.unlock(this.now_s());
         return;
       case "stop program":
-        programs.end();
+        this.programs.end();
         return;
       default:
     }
-    if (!states.mayMove) {
+    if (!this.states.mayMove) {
       answer(
         errorMessage(
-          time_us(),
+          this.time_us(),
           0,
           1,
           "The robot is not ready: programs run when it is powered, its brakes are open and nothing holds it.",
@@ -215,227 +413,139 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
       );
       return;
     }
-    programs.start(text);
-  }
-
-  const setSpeed = (to: number): void => {
-    panel.fraction = Math.max(0, Math.min(1, to));
-    mover.setRate(panel.fraction);
+    this.programs.start(text);
   };
-  const GROUPS = [
-    ["standard", 0, 8],
-    ["configurable", 8, 8],
-    ["tool", 16, 2],
-  ] as const;
-  function onInputs(fields: readonly Field[]): void {
-    if (!panel.remote) return;
+
+  readonly setSpeed = (to: number): void => {
+    this.panel.fraction = Math.max(0, Math.min(1, to));
+    this.mover.setRate(this.panel.fraction);
+  };
+
+  readonly onInputs = (fields: readonly Field[]): void => {
+    if (!this.panel.remote) return;
     for (const { name } of fields) {
-      if (name === "speed_slider_mask" && memory.get("speed_slider_mask") !== 0)
-        setSpeed(memory.get("speed_slider_fraction"));
+      if (name === "speed_slider_mask" && this.memory.get("speed_slider_mask") !== 0)
+        this.setSpeed(this.memory.get("speed_slider_fraction"));
       if (name === "standard_analog_output_mask") {
-        const mask = memory.get("standard_analog_output_mask");
+        const mask = this.memory.get("standard_analog_output_mask");
         for (const i of [0, 1])
-          if (mask & (1 << i)) memory.set(`standard_analog_output${i}`, memory.get(`standard_analog_output_${i}`));
+          if (mask & (1 << i))
+            this.memory.set(`standard_analog_output${i}`, this.memory.get(`standard_analog_output_${i}`));
       }
-      for (const [group, from, count] of GROUPS) {
+      for (const [group, from, count] of this.GROUPS) {
         if (name !== `${group}_digital_output_mask`) continue;
-        const mask = memory.get(name);
-        const value = memory.get(`${group}_digital_output`);
+        const mask = this.memory.get(name);
+        const value = this.memory.get(`${group}_digital_output`);
         for (let i = 0; i < count; i++)
-          if (mask & (1 << i)) memory.setDigital("output", from + i, (value & (1 << i)) !== 0);
+          if (mask & (1 << i)) this.memory.setDigital("output", from + i, (value & (1 << i)) !== 0);
       }
     }
-  }
-
-  const model = options.model ?? modelOf(robot);
-  const common = { outbox, log };
-  const rtde = new RtdeServer({ ...common, memory, version, cycle_s: CYCLE_S, now_s, onInputs });
-  const dashboard = new DashboardServer({
-    ...common,
-    states,
-    programs,
-    version,
-    model,
-    now_s,
-    serial: options.serial ?? DEFAULTS.serial,
-    isRemote: () => panel.remote,
-    operationalMode: () => panel.operational,
-    setOperationalMode: mode => {
-      panel.operational = mode;
-    },
-    file: name => options.files?.get(name),
-  });
-  const joints = robot.arm.joints.map(({ limits }) => limits);
-  const arm: PrimaryArm = {
-    lower_rad: joints.map(limits => limits.lower_rad),
-    upper_rad: joints.map(limits => limits.upper_rad),
-    speed_rad_s: joints.map(limits => limits.speed_rad_s),
-    acceleration_rad_s2: joints.map(limits => limits.acceleration_rad_s2),
-    type: typeOf(model),
   };
-  const tcp = new Float64Array(6);
-  const offset = new Float64Array(6);
-  const packaged = (): Uint8Array => {
+
+  packaged(): Uint8Array {
     for (let i = 0; i < 6; i++) {
-      tcp[i] = memory.slots[slotTcp + i]!;
-      offset[i] = memory.slots[slotOffset + i]!;
+      this.tcp[i] = this.memory.slots[this.slotTcp + i]!;
+      this.offset[i] = this.memory.slots[this.slotOffset + i]!;
     }
-    const { robotMode, safetyMode } = states;
+    const { robotMode, safetyMode } = this.states;
     return statePackage(
       {
-        time_us: time_us(),
+        time_us: this.time_us(),
         powerOn: robotMode >= ROBOT_MODE.IDLE,
         emergencyStopped: EMERGENCY_STOPS.has(safetyMode),
         protectiveStopped: safetyMode === SAFETY_MODE.PROTECTIVE_STOP,
-        running: programs.runtime === RUNTIME.PLAYING,
-        paused: programs.runtime === RUNTIME.PAUSED,
+        running: this.programs.runtime === RUNTIME.PLAYING,
+        paused: this.programs.runtime === RUNTIME.PAUSED,
         robotMode,
         safetyMode,
-        remote: panel.remote,
-        speedFraction: panel.fraction,
-        q_rad: neutral.jointAngles(),
-        qd_rad_s: mover.qd,
+        remote: this.panel.remote,
+        speedFraction: this.panel.fraction,
+        q_rad: this.neutral.jointAngles(),
+        qd_rad_s: this.mover.qd,
         jointMode: robotMode === ROBOT_MODE.RUNNING ? JOINT_MODE.running : JOINT_MODE.idle,
-        tcp,
-        tcpOffset: offset,
-        digitalIn: memory.get("actual_digital_input_bits"),
-        digitalOut: memory.get("actual_digital_output_bits"),
+        tcp: this.tcp,
+        tcpOffset: this.offset,
+        digitalIn: this.memory.get("actual_digital_input_bits"),
+        digitalOut: this.memory.get("actual_digital_output_bits"),
       },
-      arm,
+      this.arm,
     );
-  };
-  const slotTcp = memory.slotOf("actual_TCP_pose");
-  const slotOffset = memory.slotOf("tcp_offset");
-  const greeting = (): Uint8Array[] => [
-    versionMessage(time_us(), "URControl", version, "22-03-2022, 00:00:00"),
-    safetyModeMessage(time_us(), states.safetyMode),
-    packaged(),
-  ];
-  const primary = new ScriptServer({ ...common, name: "Primary interface", greeting, onScript });
-  const secondary = new ScriptServer({ ...common, name: "Secondary interface", greeting, onScript });
-  const realTime = new ScriptServer({ ...common, name: "Real-time interface", greeting: () => [], onScript });
-  const primaryCopy = new ScriptServer({ ...common, name: "Primary interface, read-only", greeting });
-  const secondaryCopy = new ScriptServer({ ...common, name: "Secondary interface, read-only", greeting });
-  const realTimeCopy = new ScriptServer({ ...common, name: "Real-time interface, read-only", greeting: () => [] });
-  const packageTellers = [primary, secondary, primaryCopy, secondaryCopy];
-  const streams = [realTime, realTimeCopy];
-  const realTimePackage = realTimeWriter();
-
-  const fill = stateFiller(robot, memory, mover, states, programs);
-  states.begin(options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
-
-  neutral.onSample(sample => {
-    outbox.cycle();
-    if (frozen !== faults.frozen) {
-      frozen = faults.frozen;
-      mover.hold(frozen);
-    }
-    if (frozen) return;
-    cycles++;
-    if (sample.gripperClosed !== gripper) {
-      gripper = sample.gripperClosed;
-      memory.setDigital("output", GRIPPER_BIT, gripper);
-    }
-    const q = mover.cycle(sample);
-    fill(booted_s + now_s(), q, panel.fraction);
-    states.cycle(now_s());
-    const ended = programs.cycle();
-    if (ended !== "") {
-      log(ended);
-      tell(errorMessage(time_us(), 0, 1, ended));
-    }
-    rtde.cycle(cycles);
-    if (realTime.clients + realTimeCopy.clients > 0) {
-      const bytes = realTimePackage(memory.slots);
-      for (const server of streams) server.tell(bytes, true);
-    }
-    if (cycles % PRIMARY_CYCLES === 0 && packageTellers.some(({ clients }) => clients > 0)) {
-      const bytes = packaged();
-      for (const server of packageTellers) server.tell(bytes, true);
-    }
-  });
-
-  const wanted = { ...UR_PORTS, ...options.ports };
-  const routes: Extract<Listening, { kind: "listening" }>[] = [];
-  const servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>> = {
-    dashboard,
-    primary,
-    secondary,
-    realTime,
-    rtde,
-    primaryCopy,
-    secondaryCopy,
-    realTimeCopy,
-  };
-  const ports: Record<keyof UrPorts, number> = { ...wanted };
-  const closeAll = (): void => {
-    for (const server of Object.values(servers)) server.closeAll();
-  };
-  for (const name of Object.keys(servers) as (keyof UrPorts)[]) {
-    const route = await network.listen({ host, port: wanted[name] }, stream => {
-      if (faults.refusing || isClosed) stream.close();
-      else servers[name].accept(stream);
-    });
-    if (route.kind === "taken") {
-      for (const open of routes) open.close();
-      neutral.close();
-      return route;
-    }
-    ports[name] = route.address.port;
-    routes.push(route);
   }
 
+  readonly greeting = (): Uint8Array[] => [
+    versionMessage(this.time_us(), "URControl", this.version, "22-03-2022, 00:00:00"),
+    safetyModeMessage(this.time_us(), this.states.safetyMode),
+    this.packaged(),
+  ];
+
+  closeAll(): void {
+    for (const server of Object.values(this.servers)) server.closeAll();
+  }
+}
+
+function startedUr(own: UrControllerState): UrStarted {
   const virtual: VirtualUr = {
-    name: `Virtual ${robot.name}`,
-    robot,
-    faults,
-    ports,
-    memory,
-    brakingTime_s: neutral.brakingTime_s,
-    jointAngles: out => neutral.jointAngles(out),
+    name: `Virtual ${own.robot.name}`,
+    robot: own.robot,
+    faults: own.faults,
+    ports: own.ports,
+    memory: own.memory,
+    brakingTime_s: own.neutral.brakingTime_s,
+    jointAngles: out => own.neutral.jointAngles(out),
     state: {
       get q_rad() {
-        return neutral.jointAngles();
+        return own.neutral.jointAngles();
       },
       get robotMode() {
-        return states.robotMode;
+        return own.states.robotMode;
       },
       get safetyMode() {
-        return states.safetyMode;
+        return own.states.safetyMode;
       },
       get runtime() {
-        return programs.runtime;
+        return own.programs.runtime;
       },
       get moving() {
-        return mover.isMoving;
+        return own.mover.isMoving;
       },
       get remote() {
-        return panel.remote;
+        return own.panel.remote;
       },
       get speedFraction() {
-        return panel.fraction;
+        return own.panel.fraction;
       },
       get cycles() {
-        return cycles;
+        return own.cycles;
       },
     },
-    digitalOut: bit => memory.digital("output", bit),
-    pendant: urPendant({ robot, neutral, mover, states, programs, memory, panel, now_s, setSpeed, protectiveStop }),
-    reboot() {
-      programs.end();
-      programs.endBeside();
-      closeAll();
-      outbox.clear();
-      cycles = 0;
-      booted_s = 0;
-      states.begin(ROBOT_MODE.POWER_OFF);
+    digitalOut: bit => own.memory.digital("output", bit),
+    pendant: urPendant({
+      robot: own.robot,
+      neutral: own.neutral,
+      mover: own.mover,
+      states: own.states,
+      programs: own.programs,
+      memory: own.memory,
+      panel: own.panel,
+      now_s: own.now_s,
+      setSpeed: own.setSpeed,
+      protectiveStop: own.protectiveStop,
+    }),
+    reboot: () => {
+      own.programs.end();
+      own.programs.endBeside();
+      own.closeAll();
+      own.outbox.clear();
+      own.cycles = 0;
+      own.booted_s = 0;
+      own.states.begin(ROBOT_MODE.POWER_OFF);
     },
-    close() {
-      if (isClosed) return;
-      isClosed = true;
-      closeAll();
-      for (const route of routes) route.close();
-      neutral.close();
+    close: () => {
+      if (own.isClosed) return;
+      own.isClosed = true;
+      own.closeAll();
+      for (const route of own.routes) route.close();
+      own.neutral.close();
     },
   };
   return { kind: "started", virtual };

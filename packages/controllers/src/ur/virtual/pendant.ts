@@ -1,4 +1,4 @@
-import { identity, type MoveStep, type Robot } from "@twincell/core";
+import { identity, type MoveStep, type Robot, type CommandOutcome } from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { KeyPosition, Pendant, PendantShown } from "../../driver/index.ts";
 import { jointRefusal } from "../../refusals.ts";
@@ -57,44 +57,133 @@ const FLANGE = identity<"flange", "tcp">();
 const INPUTS = numbered("in");
 const OUTPUTS = numbered("out");
 
-export function urPendant({
-  robot,
-  neutral,
-  mover,
-  states,
-  programs,
-  memory,
-  panel,
-  now_s,
-  setSpeed,
-  protectiveStop,
-}: UrPendantParts): UrPendant {
-  let jogging = false;
-  const turn = (remote: boolean): void => {
-    if (remote !== panel.remote) {
-      panel.remote = remote;
-      programs.end();
+export function urPendant(options: UrPendantParts): UrPendant {
+  return urPendantOf(new TeachPanel(options));
+}
+
+class TeachPanel {
+  readonly robot: Robot;
+  readonly neutral: VirtualController;
+  readonly mover: Mover;
+  readonly states: States;
+  readonly programs: Programs;
+  readonly memory: Memory;
+  readonly panel: Panel;
+  readonly now_s: () => number;
+  readonly setSpeed: (fraction: number) => void;
+  readonly protectiveStop: (because: string) => void;
+  jogging = false;
+
+  constructor({
+    robot,
+    neutral,
+    mover,
+    states,
+    programs,
+    memory,
+    panel,
+    now_s,
+    setSpeed,
+    protectiveStop,
+  }: UrPendantParts) {
+    this.robot = robot;
+    this.neutral = neutral;
+    this.mover = mover;
+    this.states = states;
+    this.programs = programs;
+    this.memory = memory;
+    this.panel = panel;
+    this.now_s = now_s;
+    this.setSpeed = setSpeed;
+    this.protectiveStop = protectiveStop;
+  }
+
+  turn(remote: boolean): void {
+    if (remote !== this.panel.remote) {
+      this.panel.remote = remote;
+      this.programs.end();
     }
+  }
+
+  readonly stopJog = (): void => {
+    if (this.jogging) this.mover.stop();
   };
-  const stopJog = (): void => {
-    if (jogging) mover.stop();
-  };
-  const whyNoJog = (): { readonly code: string; readonly sentence: string; readonly hint: string } | null =>
-    panel.remote
+
+  whyNoJog(): { readonly code: string; readonly sentence: string; readonly hint: string } | null {
+    return this.panel.remote
       ? {
           code: "controller.not-manual",
-          sentence: `${robot.name} is in remote control; its pendant jogs in local control only.`,
+          sentence: `${this.robot.name} is in remote control; its pendant jogs in local control only.`,
           hint: "Switch it to local control.",
         }
-      : !states.mayMove
+      : !this.states.mayMove
         ? {
             code: "controller.not-ready",
-            sentence: `${robot.name} is not ready to move.`,
+            sentence: `${this.robot.name} is not ready to move.`,
             hint: "Power it on and release its brakes.",
           }
-        : !mover.isAtRest
-          ? { code: "controller.busy", sentence: `${robot.name} is still moving.`, hint: "Wait until it stands." }
+        : !this.mover.isAtRest
+          ? { code: "controller.busy", sentence: `${this.robot.name} is still moving.`, hint: "Wait until it stands." }
           : null;
+  }
+
+  shown(): PendantShown {
+    const { robotMode, safetyMode, message } = this.states;
+    return {
+      key: this.panel.remote ? "remote" : this.panel.operational === "AUTOMATIC" ? "automatic" : "manual",
+      override: this.panel.fraction,
+      safety: EMERGENCY_STOPS.has(safetyMode)
+        ? "emergency-stop"
+        : SAFEGUARD_STOPS.has(safetyMode)
+          ? "guard-stop"
+          : this.states.mayMove || safetyMode === SAFETY_MODE.NORMAL
+            ? "normal"
+            : "protective-stop",
+      servo: this.states.isRunning
+        ? "on"
+        : robotMode === ROBOT_MODE.POWER_ON || robotMode === ROBOT_MODE.IDLE
+          ? "coming"
+          : "off",
+      program: this.programs.name,
+      running: this.programs.runtime === RUNTIME.PLAYING,
+      alarms: message === "" ? [] : [message],
+    };
+  }
+
+  async jog(q_rad: ArrayLike<number>, most = 1): Promise<CommandOutcome> {
+    const why = jointRefusal(this.robot, q_rad) ?? this.whyNoJog();
+    if (why) return { kind: "refused", why };
+    const full_mps = jointMoveSpeed(this.robot, this.neutral.jointAngles(), q_rad, FLANGE);
+    const ratio = Math.min(most, BY_HAND, full_mps > 0 ? BY_HAND_MPS / full_mps : 1);
+    const step: MoveStep = {
+      id: "",
+      type: "move",
+      path: "ptp",
+      target: { q: Array.from(q_rad) },
+      speed: { ratio },
+      blend_m: 0,
+    };
+    const moving = this.mover.run([step], { tools: {}, frames: {} });
+    this.jogging = true;
+    return new Promise(resolve => {
+      const done = this.neutral.onSample(() => {
+        if (!moving.over) return;
+        this.jogging = false;
+        done();
+        resolve(
+          moving.sentence === ""
+            ? { kind: "done" }
+            : {
+                kind: "stopped",
+                why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." },
+              },
+        );
+      });
+    });
+  }
+}
+
+function urPendantOf(own: TeachPanel): UrPendant {
   return {
     keys: KEYS,
     labels: { servo: "Power and brakes", reset: "Unlock" },
@@ -103,126 +192,77 @@ export function urPendant({
       outputs: OUTPUTS,
       read(signal) {
         const line = lineNumber(signal);
-        return line !== null && memory.digital(line.kind === "digital-in" ? "input" : "output", line.number);
+        return line !== null && own.memory.digital(line.kind === "digital-in" ? "input" : "output", line.number);
       },
     },
     get shown(): PendantShown {
-      const { robotMode, safetyMode, message } = states;
-      return {
-        key: panel.remote ? "remote" : panel.operational === "AUTOMATIC" ? "automatic" : "manual",
-        override: panel.fraction,
-        safety: EMERGENCY_STOPS.has(safetyMode)
-          ? "emergency-stop"
-          : SAFEGUARD_STOPS.has(safetyMode)
-            ? "guard-stop"
-            : states.mayMove || safetyMode === SAFETY_MODE.NORMAL
-              ? "normal"
-              : "protective-stop",
-        servo: states.isRunning
-          ? "on"
-          : robotMode === ROBOT_MODE.POWER_ON || robotMode === ROBOT_MODE.IDLE
-            ? "coming"
-            : "off",
-        program: programs.name,
-        running: programs.runtime === RUNTIME.PLAYING,
-        alarms: message === "" ? [] : [message],
-      };
+      return own.shown();
     },
     turnKey(position) {
-      if (position !== "remote") panel.operational = position === "automatic" ? "AUTOMATIC" : "MANUAL";
-      turn(position === "remote");
-      if (position !== "manual") stopJog();
+      if (position !== "remote") own.panel.operational = position === "automatic" ? "AUTOMATIC" : "MANUAL";
+      own.turn(position === "remote");
+      if (position !== "manual") own.stopJog();
     },
     setMode(mode) {
-      turn(mode !== "manual");
+      own.turn(mode !== "manual");
     },
     setOperationalMode(mode) {
-      panel.operational = mode;
+      own.panel.operational = mode;
     },
     setEnabling(pressed) {
-      if (!pressed) stopJog();
+      if (!pressed) own.stopJog();
     },
     setServo(on) {
       if (!on) {
-        states.powerOff();
+        own.states.powerOff();
         return null;
       }
-      return states.powerOn(now_s(), ROBOT_MODE.RUNNING)
+      return own.states.powerOn(own.now_s(), ROBOT_MODE.RUNNING)
         ? null
         : "The safety system keeps the power off: turn the red button out first.";
     },
     setOverride(ratio) {
-      setSpeed(ratio);
+      own.setSpeed(ratio);
       return null;
     },
     reset() {
-      if (states.safetyMode === SAFETY_MODE.FAULT || states.safetyMode === SAFETY_MODE.VIOLATION) {
-        states.restartSafety();
+      if (own.states.safetyMode === SAFETY_MODE.FAULT || own.states.safetyMode === SAFETY_MODE.VIOLATION) {
+        own.states.restartSafety();
         return null;
       }
-      const unlocked = states.unlock(now_s());
+      const unlocked = own.states.unlock(own.now_s());
       if (unlocked === "too-soon")
         return `A protective stop can be unlocked ${UNLOCK_AFTER_S} s after it came: look at the robot first.`;
-      return unlocked === "unlocked" || states.message === "" ? null : states.message;
+      return unlocked === "unlocked" || own.states.message === "" ? null : own.states.message;
     },
-    stopJog,
-    async jog(q_rad, most = 1) {
-      const why = jointRefusal(robot, q_rad) ?? whyNoJog();
-      if (why) return { kind: "refused", why };
-      const full_mps = jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE);
-      const ratio = Math.min(most, BY_HAND, full_mps > 0 ? BY_HAND_MPS / full_mps : 1);
-      const step: MoveStep = {
-        id: "",
-        type: "move",
-        path: "ptp",
-        target: { q: Array.from(q_rad) },
-        speed: { ratio },
-        blend_m: 0,
-      };
-      const moving = mover.run([step], { tools: {}, frames: {} });
-      jogging = true;
-      return new Promise(resolve => {
-        const done = neutral.onSample(() => {
-          if (!moving.over) return;
-          jogging = false;
-          done();
-          resolve(
-            moving.sentence === ""
-              ? { kind: "done" }
-              : {
-                  kind: "stopped",
-                  why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." },
-                },
-          );
-        });
-      });
-    },
-    setSpeed,
+    stopJog: own.stopJog,
+    jog: (q_rad, most) => own.jog(q_rad, most),
+    setSpeed: own.setSpeed,
     emergencyStop(pressed) {
-      states.emergencyStop(pressed);
+      own.states.emergencyStop(pressed);
     },
     setGuardOpen(open) {
-      states.safeguard(open);
+      own.states.safeguard(open);
     },
-    protectiveStop,
+    protectiveStop: own.protectiveStop,
     fault(because) {
-      states.fault(because);
+      own.states.fault(because);
     },
     switchOn() {
-      states.powerOn(now_s(), ROBOT_MODE.RUNNING);
+      own.states.powerOn(own.now_s(), ROBOT_MODE.RUNNING);
     },
     switchOff() {
-      states.powerOff();
+      own.states.powerOff();
     },
-    unlock: () => states.unlock(now_s()),
+    unlock: () => own.states.unlock(own.now_s()),
     stopProgram() {
-      programs.end();
+      own.programs.end();
     },
     setInput(signal, value) {
       const line = lineNumber(signal);
       if (line?.kind === "digital-in")
-        memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
-      if (line?.kind === "analogue-in") memory.set(`standard_analog_input${line.number}`, Number(value));
+        own.memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
+      if (line?.kind === "analogue-in") own.memory.set(`standard_analog_input${line.number}`, Number(value));
     },
   };
 }

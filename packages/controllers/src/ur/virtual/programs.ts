@@ -1,7 +1,7 @@
 import type { Interpreted, Program, Step } from "@twincell/core";
 import { RUNTIME } from "../codec/modes.ts";
 import { textSteps } from "../../runner/text.ts";
-import { Machine, readScript, type ScriptFault } from "../script/index.ts";
+import { Machine, readScript, type ScriptFault } from "./script/index.ts";
 import { robotFunctions, type ScriptHost } from "./functions.ts";
 import type { Mover } from "./mover.ts";
 import type { NamedLines } from "./lines.ts";

@@ -1,7 +1,7 @@
 import type { ByteStream } from "../../transport/index.ts";
 import { lineReader } from "../codec/lines.ts";
 import { blockChange } from "../codec/models.ts";
-import { LONGEST_SCRIPT } from "../script/index.ts";
+import { LONGEST_SCRIPT } from "./script/index.ts";
 import type { Outbox } from "./faults.ts";
 
 export interface ScriptServerOptions {

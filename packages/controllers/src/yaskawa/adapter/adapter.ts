@@ -20,7 +20,7 @@ import { fileClient, type FileClient } from "./files.ts";
 import { Hand, unsayableMotion } from "./hand.ts";
 import { handJob } from "./job.ts";
 import { lineTable, watchedLines, type LineTable } from "./lines.ts";
-import { robotState } from "./state.ts";
+import { robotState, type RobotState } from "./state.ts";
 import { badAnswer, noGripper, noPulses, noWay, otherAxes, otherModel, unknownPulses } from "./words.ts";
 
 export interface YaskawaAdapterOptions {
@@ -82,100 +82,142 @@ const EXAMPLE_SIGNALS = Object.fromEntries(
 
 /** The high-speed Ethernet server as a face: states by asking, motion by commands, stop by hold. */
 export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
-  const { robot, scheduler, network, host } = options;
-  const known = options.scale ?? ownScale(robot);
-  const scale = known ?? exampleScale(robot);
-  const n = robot.arm.joints.length;
-  const state = robotState(robot, scale);
-  const to = { host, port: options.ports?.robot ?? ROBOT_PORT };
-  const filesAt = { host, port: options.ports?.files ?? FILE_PORT };
-  let outputsFrom = options.outputsFrom;
-  const tableOf = (signals: Readonly<Record<string, number>>, gripper: number | undefined): LineTable =>
-    lineTable({ ...signals, ...(gripper === undefined ? {} : { [GRIPPER]: gripper }) }, outputsFrom, (signal, on) => {
-      if (signal === GRIPPER) state.sample.gripperClosed = on;
-      else state.sample.signals.set(signal, on);
-    });
-  let lines = tableOf(options.signals ?? watchedLines(), options.gripper);
-  let hasGripper = options.gripper !== undefined;
-  const hand = new Hand({ robot, scheduler, scale, state });
-  let line: { readonly orders: Client; readonly files: FileClient; readonly close: () => void } | null = null;
-  let life = 0;
-  let begun_s = 0;
-  let beside_s = 0;
-  let beside = 0;
+  return yaskawaAdapterOf(new YaskawaWire(options));
+}
 
-  const isWell = (answer: Answer): answer is Extract<Answer, { kind: "answer" }> =>
-    answer.kind === "answer" && answer.reply.status === 0;
-  const ask = (
+class YaskawaWire {
+  readonly options: YaskawaAdapterOptions;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly known: PulseScale | undefined;
+  readonly scale: PulseScale;
+  readonly n: number;
+  readonly state: RobotState;
+  readonly to: { host: string; port: number };
+  readonly filesAt: { host: string; port: number };
+  outputsFrom: number | undefined;
+  lines: LineTable;
+  hasGripper: boolean;
+  readonly hand: Hand;
+  line: { readonly orders: Client; readonly files: FileClient; readonly close: () => void } | null = null;
+  life = 0;
+  begun_s = 0;
+  beside_s = 0;
+  beside = 0;
+
+  constructor(options: YaskawaAdapterOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.network = this.options.network;
+    this.host = this.options.host;
+    this.known = this.options.scale ?? ownScale(this.robot);
+    this.scale = this.known ?? exampleScale(this.robot);
+    this.n = this.robot.arm.joints.length;
+    this.state = robotState(this.robot, this.scale);
+    this.to = { host: this.host, port: this.options.ports?.robot ?? ROBOT_PORT };
+    this.filesAt = { host: this.host, port: this.options.ports?.files ?? FILE_PORT };
+    this.outputsFrom = this.options.outputsFrom;
+    this.lines = this.tableOf(this.options.signals ?? watchedLines(), this.options.gripper);
+    this.hasGripper = this.options.gripper !== undefined;
+    this.hand = new Hand({ robot: this.robot, scheduler: this.scheduler, scale: this.scale, state: this.state });
+  }
+
+  tableOf(signals: Readonly<Record<string, number>>, gripper: number | undefined): LineTable {
+    return lineTable(
+      { ...signals, ...(gripper === undefined ? {} : { [GRIPPER]: gripper }) },
+      this.outputsFrom,
+      (signal, on) => {
+        if (signal === GRIPPER) this.state.sample.gripperClosed = on;
+        else this.state.sample.signals.set(signal, on);
+      },
+    );
+  }
+
+  isWell(answer: Answer): answer is Extract<Answer, { kind: "answer" }> {
+    return answer.kind === "answer" && answer.reply.status === 0;
+  }
+
+  ask(
     client: Client,
     command: number,
     instance: number,
     patience_s: readonly number[],
     attribute = 0,
-  ): Promise<Answer> =>
-    client.ask({
+  ): Promise<Answer> {
+    return client.ask({
       command,
       instance,
       attribute,
       service: attribute === 0 ? SERVICE.getAll : SERVICE.getOne,
       patience_s,
     });
+  }
 
   /** One question beside the state, taken in turn: the job with the override, and the groups of lines. */
-  async function askBeside(client: Client): Promise<void> {
-    const { groups } = lines;
-    const which = beside++ % (groups.length + 1);
+  async askBeside(client: Client): Promise<void> {
+    const { groups } = this.lines;
+    const which = this.beside++ % (groups.length + 1);
     if (which === 0) {
-      const answer = await ask(client, COMMAND.job, 1, READ_PATIENCE_S);
-      const job = isWell(answer) ? readJob(answer.reply.data) : undefined;
-      if (job) state.pendantOverride = Math.min(1, job.override);
+      const answer = await this.ask(client, COMMAND.job, 1, READ_PATIENCE_S);
+      const job = this.isWell(answer) ? readJob(answer.reply.data) : undefined;
+      if (job) this.state.pendantOverride = Math.min(1, job.override);
       return;
     }
     const group = groups[which - 1]!;
-    const answer = await ask(client, COMMAND.io, group, READ_PATIENCE_S, 1);
-    if (isWell(answer) && answer.reply.data.length > 0) lines.take(group, answer.reply.data[0]!);
+    const answer = await this.ask(client, COMMAND.io, group, READ_PATIENCE_S, 1);
+    if (this.isWell(answer) && answer.reply.data.length > 0) this.lines.take(group, answer.reply.data[0]!);
   }
 
   /** Status, then position: a state. Why not, when the controller does not say. */
-  async function poll(client: Client): Promise<Refusal | null> {
-    const number = hand.beginPoll();
-    const status = await ask(client, COMMAND.status, 1, READ_PATIENCE_S);
-    if (!isWell(status)) return noWay(to, status);
-    if (!state.takeStatus(status.reply.data)) return badAnswer(to);
-    if (!state.status.alarm) state.alarm = "";
-    else if (state.alarm === "") {
-      const answer = await ask(client, COMMAND.alarm, 1, READ_PATIENCE_S);
-      const alarm = isWell(answer) ? readAlarm(answer.reply.data) : undefined;
-      state.alarm = alarm
+  async poll(client: Client): Promise<Refusal | null> {
+    const number = this.hand.beginPoll();
+    const status = await this.ask(client, COMMAND.status, 1, READ_PATIENCE_S);
+    if (!this.isWell(status)) return noWay(this.to, status);
+    if (!this.state.takeStatus(status.reply.data)) return badAnswer(this.to);
+    if (!this.state.status.alarm) this.state.alarm = "";
+    else if (this.state.alarm === "") {
+      const answer = await this.ask(client, COMMAND.alarm, 1, READ_PATIENCE_S);
+      const alarm = this.isWell(answer) ? readAlarm(answer.reply.data) : undefined;
+      this.state.alarm = alarm
         ? `Alarm ${alarm.code}: ${alarm.name}${alarm.data === 0 ? "" : ` [${alarm.data}]`}`
         : "An alarm is present.";
     }
-    const position = await ask(client, COMMAND.position, 1, READ_PATIENCE_S);
-    if (!isWell(position)) return noWay(to, position);
-    if (!state.takePosition(position.reply.data, scheduler.now_s() - begun_s, hand.override, hand.emergency))
-      return badAnswer(to);
-    if (hand.complaint !== "" && state.sample.message === "") state.sample.message = hand.complaint;
-    hand.look(number);
+    const position = await this.ask(client, COMMAND.position, 1, READ_PATIENCE_S);
+    if (!this.isWell(position)) return noWay(this.to, position);
+    if (
+      !this.state.takePosition(
+        position.reply.data,
+        this.scheduler.now_s() - this.begun_s,
+        this.hand.override,
+        this.hand.emergency,
+      )
+    )
+      return badAnswer(this.to);
+    if (this.hand.complaint !== "" && this.state.sample.message === "") this.state.sample.message = this.hand.complaint;
+    this.hand.look(number);
     return null;
   }
 
-  function keepPolling(client: Client, events: AdapterEvents, mine: number): () => void {
+  keepPolling(client: Client, events: AdapterEvents, mine: number): () => void {
     let isBusy = false;
     const turn = async (): Promise<void> => {
-      const why = await poll(client);
-      if (mine !== life) return;
+      const why = await this.poll(client);
+      if (mine !== this.life) return;
       if (why?.code === "link.no-answer") {
         events.lost(why.sentence);
         return;
       }
       // One odd answer is no state; when no state comes any more, that is noticed.
       if (why) return;
-      events.sample(state.sample);
-      if (scheduler.now_s() - beside_s < BESIDE_S) return;
-      beside_s = scheduler.now_s();
-      await askBeside(client);
+      events.sample(this.state.sample);
+      if (this.scheduler.now_s() - this.beside_s < BESIDE_S) return;
+      this.beside_s = this.scheduler.now_s();
+      await this.askBeside(client);
     };
-    return scheduler.every(options.poll_s ?? POLL_S, () => {
+    return this.scheduler.every(this.options.poll_s ?? POLL_S, () => {
       if (isBusy) return;
       isBusy = true;
       void turn().then(() => {
@@ -184,156 +226,164 @@ export function yaskawaAdapter(options: YaskawaAdapterOptions): YaskawaAdapter {
     });
   }
 
-  /** Whether the right robot answers; null when it does. */
-  async function strange(client: Client): Promise<{ readonly why: Refusal; readonly again: boolean } | null> {
-    const info = await ask(client, COMMAND.systemInfo, 11, OPEN_PATIENCE_S);
-    if (info.kind === "silent") return { why: noWay(to, info), again: true };
-    const isVirtual = isWell(info) && textAt(info.reply.data, 0, 24).startsWith(VIRTUAL);
-    if (known === undefined && !isVirtual) return { why: unknownPulses(robot), again: false };
-    if (isVirtual && options.signals === undefined && options.gripper === undefined) {
-      outputsFrom ??= EXAMPLE_OUTPUTS;
-      lines = tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER);
-      hasGripper = true;
+  async open(events: AdapterEvents): Promise<Opened> {
+    this.close();
+    const mine = this.life;
+    const failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
+    if (this.scale.pulsesPerDegree.length !== this.n)
+      return failed(noPulses(this.robot, this.scale.pulsesPerDegree.length), false);
+    const here = this.options.local ?? "0.0.0.0";
+    const open: Client[] = [];
+    const shut = (): void => {
+      for (const client of open) client.close();
+    };
+    // A controller hears one question at a time of each sender: who watches does not wait behind an order whose
+    // answer was lost.
+    for (const [address, division] of [
+      [this.to, DIVISION.robot],
+      [this.to, DIVISION.robot],
+      [this.filesAt, DIVISION.file],
+    ] as const) {
+      const bound = await this.network.bind({ host: here, port: 0 });
+      if (bound.kind === "taken" || mine !== this.life) {
+        shut();
+        if (bound.kind === "bound") bound.socket.close();
+        return failed(
+          {
+            code: "link.no-port",
+            sentence: bound.kind === "taken" ? bound.sentence : "The link was closed.",
+            hint: "Look at the network of this machine.",
+          },
+          true,
+        );
+      }
+      open.push(
+        hsesClient({
+          socket: bound.socket,
+          to: address,
+          division,
+          scheduler: this.scheduler,
+          ...(open.length === 0
+            ? {
+                onRoundTrip: seconds => {
+                  events.roundTrip(seconds);
+                },
+              }
+            : {}),
+        }),
+      );
     }
-    const model = isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "";
+    const [watch, orders, fileLine] = open as [Client, Client, Client];
+    this.begun_s = this.scheduler.now_s();
+    const wrong = await this.strange(watch);
+    if (wrong || mine !== this.life) {
+      shut();
+      return wrong
+        ? failed(wrong.why, wrong.again)
+        : failed({ code: "link.closed", sentence: "The link was closed.", hint: "Connect it again." }, false);
+    }
+    const stopPolling = this.keepPolling(watch, events, mine);
+    this.line = {
+      orders,
+      files: fileClient(fileLine),
+      close() {
+        stopPolling();
+        shut();
+      },
+    };
+    this.hand.take(orders);
+    return { kind: "open" };
+  }
+
+  /** Whether the right robot answers; null when it does. */
+  async strange(client: Client): Promise<{ readonly why: Refusal; readonly again: boolean } | null> {
+    const info = await this.ask(client, COMMAND.systemInfo, 11, OPEN_PATIENCE_S);
+    if (info.kind === "silent") return { why: noWay(this.to, info), again: true };
+    const isVirtual = this.isWell(info) && textAt(info.reply.data, 0, 24).startsWith(VIRTUAL);
+    if (this.known === undefined && !isVirtual) return { why: unknownPulses(this.robot), again: false };
+    if (isVirtual && this.options.signals === undefined && this.options.gripper === undefined) {
+      this.outputsFrom ??= EXAMPLE_OUTPUTS;
+      this.lines = this.tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER);
+      this.hasGripper = true;
+    }
+    const model = this.isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "";
     const wanted =
-      options.model ?? robot.vendorSection?.model ?? robot.name.replace(new RegExp(`^${robot.vendor}\\s+`, "i"), "");
+      this.options.model ??
+      this.robot.vendorSection?.model ??
+      this.robot.name.replace(new RegExp(`^${this.robot.vendor}\\s+`, "i"), "");
     if (model !== "" && !plain(model).includes(plain(wanted)))
-      return { why: otherModel(robot, wanted, model), again: false };
-    const names = await ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);
-    if (names.kind === "silent") return { why: noWay(to, names), again: true };
+      return { why: otherModel(this.robot, wanted, model), again: false };
+    const names = await this.ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);
+    if (names.kind === "silent") return { why: noWay(this.to, names), again: true };
     // Eight names, or seven of an older controller, of four letters each; an answer of another size names none.
     const axes =
-      isWell(names) && names.reply.data.length <= 32
+      this.isWell(names) && names.reply.data.length <= 32
         ? Array.from({ length: 8 }, (_, i) => textAt(names.reply.data, 4 * i, 4).trim()).filter(name => name !== "")
             .length
         : 0;
-    if (axes !== 0 && axes !== n) return { why: otherAxes(robot, model || "robot", axes), again: false };
-    const first = await poll(client);
+    if (axes !== 0 && axes !== this.n) return { why: otherAxes(this.robot, model || "robot", axes), again: false };
+    const first = await this.poll(client);
     return first ? { why: first, again: true } : null;
   }
 
-  const handText = (files: readonly EmittedFile[]): Promise<UploadedProgram> =>
-    line
-      ? handJob(files, line.orders, line.files, hand)
-      : Promise.resolve({ kind: "refused", why: noWay(to, { kind: "silent", after_s: 0 }) });
+  readonly handText = (files: readonly EmittedFile[]): Promise<UploadedProgram> =>
+    this.line
+      ? handJob(files, this.line.orders, this.line.files, this.hand)
+      : Promise.resolve({ kind: "refused", why: noWay(this.to, { kind: "silent", after_s: 0 }) });
 
-  function close(): void {
-    life++;
-    const was = line;
-    line = null;
-    hand.letDrop();
+  readonly close = (): void => {
+    this.life++;
+    const was = this.line;
+    this.line = null;
+    this.hand.letDrop();
     was?.close();
-  }
+  };
+}
 
+function yaskawaAdapterOf(wire: YaskawaWire): YaskawaAdapter {
   return {
     brand: "Yaskawa",
-    robot,
-    stale_s: options.stale_s ?? STALE_S,
+    robot: wire.robot,
+    stale_s: wire.options.stale_s ?? STALE_S,
     watchdog: {
       kind: "none",
       because:
         "the Ethernet server has no watchdog: a robot that was sent to a target goes on to it when the line breaks, and streams of targets are not sent for that reason",
     },
     get files() {
-      return line?.files ?? null;
+      return wire.line?.files ?? null;
     },
-    async open(events): Promise<Opened> {
-      close();
-      const mine = life;
-      const failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
-      if (scale.pulsesPerDegree.length !== n) return failed(noPulses(robot, scale.pulsesPerDegree.length), false);
-      const here = options.local ?? "0.0.0.0";
-      const open: Client[] = [];
-      const shut = (): void => {
-        for (const client of open) client.close();
-      };
-      // A controller hears one question at a time of each sender: who watches does not wait behind an order whose
-      // answer was lost.
-      for (const [address, division] of [
-        [to, DIVISION.robot],
-        [to, DIVISION.robot],
-        [filesAt, DIVISION.file],
-      ] as const) {
-        const bound = await network.bind({ host: here, port: 0 });
-        if (bound.kind === "taken" || mine !== life) {
-          shut();
-          if (bound.kind === "bound") bound.socket.close();
-          return failed(
-            {
-              code: "link.no-port",
-              sentence: bound.kind === "taken" ? bound.sentence : "The link was closed.",
-              hint: "Look at the network of this machine.",
-            },
-            true,
-          );
-        }
-        open.push(
-          hsesClient({
-            socket: bound.socket,
-            to: address,
-            division,
-            scheduler,
-            ...(open.length === 0
-              ? {
-                  onRoundTrip: seconds => {
-                    events.roundTrip(seconds);
-                  },
-                }
-              : {}),
-          }),
-        );
-      }
-      const [watch, orders, fileLine] = open as [Client, Client, Client];
-      begun_s = scheduler.now_s();
-      const wrong = await strange(watch);
-      if (wrong || mine !== life) {
-        shut();
-        return wrong
-          ? failed(wrong.why, wrong.again)
-          : failed({ code: "link.closed", sentence: "The link was closed.", hint: "Connect it again." }, false);
-      }
-      const stopPolling = keepPolling(watch, events, mine);
-      line = {
-        orders,
-        files: fileClient(fileLine),
-        close() {
-          stopPolling();
-          shut();
-        },
-      };
-      hand.take(orders);
-      return { kind: "open" };
-    },
-    close,
+    open: events => wire.open(events),
+    close: wire.close,
     cannotSay(order) {
-      if (order.kind === "signal") return lines.cannotWrite(order.signal, order.value);
-      if (order.kind === "gripper") return hasGripper ? lines.cannotWrite(GRIPPER, order.closed) : noGripper(robot);
-      return unsayableMotion(order, robot);
+      if (order.kind === "signal") return wire.lines.cannotWrite(order.signal, order.value);
+      if (order.kind === "gripper")
+        return wire.hasGripper ? wire.lines.cannotWrite(GRIPPER, order.closed) : noGripper(wire.robot);
+      return unsayableMotion(order, wire.robot);
     },
-    move: (motion: AdapterMotion): Promise<CommandOutcome> => hand.move(motion),
+    move: (motion: AdapterMotion): Promise<CommandOutcome> => wire.hand.move(motion),
     stop(emergency) {
-      hand.stop(emergency);
+      wire.hand.stop(emergency);
     },
-    setOverride: ratio => hand.setOverride(ratio),
-    reset: () => hand.reset(),
+    setOverride: ratio => wire.hand.setOverride(ratio),
+    reset: () => wire.hand.reset(),
     setSignal: (signal, value) =>
-      line
-        ? lines.write(line.orders, signal, value, why => {
-            hand.complaint = why.sentence;
+      wire.line
+        ? wire.lines.write(wire.line.orders, signal, value, why => {
+            wire.hand.complaint = why.sentence;
           })
-        : noWay(to, { kind: "silent", after_s: 0 }),
+        : noWay(wire.to, { kind: "silent", after_s: 0 }),
     setGripper(closed) {
-      if (!hasGripper) return noGripper(robot);
-      return line
-        ? lines.write(line.orders, GRIPPER, closed, why => {
-            hand.complaint = why.sentence;
+      if (!wire.hasGripper) return noGripper(wire.robot);
+      return wire.line
+        ? wire.lines.write(wire.line.orders, GRIPPER, closed, why => {
+            wire.hand.complaint = why.sentence;
           })
-        : noWay(to, { kind: "silent", after_s: 0 });
+        : noWay(wire.to, { kind: "silent", after_s: 0 });
     },
-    handText,
+    handText: wire.handText,
     async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-      const handed = await handText(files);
+      const handed = await wire.handText(files);
       return handed.kind === "refused" ? handed : handed.start();
     },
   };

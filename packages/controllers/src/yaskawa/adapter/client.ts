@@ -54,25 +54,65 @@ export interface ClientOptions {
   readonly to: Address;
   readonly division: Division;
   readonly scheduler: Scheduler;
-  readonly onRoundTrip?: (seconds: number) => void;
+  readonly onRoundTrip?: ((seconds: number) => void) | undefined;
 }
 
 /** Asks a controller over UDP: an answer belongs to its question by the request id, and what is lost is said again. */
-export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: ClientOptions): Client {
-  const out = new Uint8Array(HEADER_BYTES + MAX_DATA_BYTES);
-  let waiting: Asked[] = [];
-  let current: Asked | null = null;
-  let urgent: Asked | null = null;
-  let lastId = 0;
-  let isClosed = false;
+export function hsesClient(options: ClientOptions): Client {
+  return hsesClientOf(new HsesClient(options));
+}
+
+class HsesClient {
+  readonly socket: DatagramSocket;
+  readonly to: Address;
+  readonly division: Division;
+  readonly scheduler: Scheduler;
+  readonly onRoundTrip: ((seconds: number) => void) | undefined;
+  readonly out = new Uint8Array(HEADER_BYTES + MAX_DATA_BYTES);
+  waiting: Asked[] = [];
+  current: Asked | null = null;
+  urgent: Asked | null = null;
+  lastId = 0;
+  isClosed = false;
+  readonly stop: () => void;
+
+  constructor({ socket, to, division, scheduler, onRoundTrip }: ClientOptions) {
+    this.socket = socket;
+    this.to = to;
+    this.division = division;
+    this.scheduler = scheduler;
+    this.onRoundTrip = onRoundTrip;
+    this.socket.onDatagram((lent, from) => {
+      if (this.isClosed || from.port !== this.to.port) return;
+      const read = readReply(lent);
+      if (read.kind === "flawed" || read.packet.division !== this.division) return;
+      const { packet: reply } = read;
+      for (const asked of [this.current, this.urgent]) {
+        if (asked === null || asked.id !== reply.id || asked.question.service !== reply.service) continue;
+        // A block that was answered before its turn is the answer to an older packet.
+        if (asked.question.block !== undefined && !belongs(asked.question, reply)) continue;
+        this.onRoundTrip?.(this.scheduler.now_s() - (asked.next_s - asked.question.patience_s[asked.said - 1]!));
+        this.end(asked, { kind: "answer", reply: { ...reply, data: reply.data.slice() } });
+        return;
+      }
+    });
+    this.stop = this.scheduler.every(LOOK_S, () => {
+      const now_s = this.scheduler.now_s();
+      for (const asked of [this.current, this.urgent]) {
+        if (asked === null || now_s < asked.next_s - 1e-9) continue;
+        if (asked.said < asked.question.patience_s.length) this.send(asked);
+        else this.end(asked, { kind: "silent", after_s: now_s - asked.begun_s });
+      }
+    });
+  }
 
   /** @param id  of a file transfer: the same for all its packets. */
-  const packet = (
+  packet(
     { command = 0, instance = 0, attribute = 0, service, data = NOTHING, block }: Omit<Question, "patience_s">,
     id: number,
-  ): Uint8Array => {
+  ): Uint8Array {
     const request: HsesRequest = {
-      division,
+      division: this.division,
       ack: block !== undefined,
       id,
       block: block ?? 0,
@@ -82,84 +122,70 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
       service,
       data,
     };
-    return out.subarray(0, writeRequest(request, out));
-  };
-  const nextId = (): number => (lastId = (lastId + 1) & 255);
+    return this.out.subarray(0, writeRequest(request, this.out));
+  }
 
-  function send(asked: Asked): void {
-    socket.send(asked.bytes, to);
-    asked.next_s = scheduler.now_s() + asked.question.patience_s[asked.said]!;
+  nextId(): number {
+    return (this.lastId = (this.lastId + 1) & 255);
+  }
+
+  send(asked: Asked): void {
+    this.socket.send(asked.bytes, this.to);
+    asked.next_s = this.scheduler.now_s() + asked.question.patience_s[asked.said]!;
     asked.said++;
   }
-  function goOn(): void {
-    if (isClosed) return;
-    if (urgent === null) {
-      const at = waiting.findIndex(({ question }) => question.urgent);
-      if (at >= 0) send((urgent = waiting.splice(at, 1)[0]!));
+
+  goOn(): void {
+    if (this.isClosed) return;
+    if (this.urgent === null) {
+      const at = this.waiting.findIndex(({ question }) => question.urgent);
+      if (at >= 0) this.send((this.urgent = this.waiting.splice(at, 1)[0]!));
     }
-    if (current === null && waiting.length > 0 && !waiting[0]!.question.urgent) send((current = waiting.shift()!));
+    if (this.current === null && this.waiting.length > 0 && !this.waiting[0]!.question.urgent)
+      this.send((this.current = this.waiting.shift()!));
   }
-  function end(asked: Asked, answer: Answer): void {
-    if (asked === current) current = null;
-    else urgent = null;
+
+  end(asked: Asked, answer: Answer): void {
+    if (asked === this.current) this.current = null;
+    else this.urgent = null;
     asked.resolve(answer);
-    goOn();
+    this.goOn();
   }
+}
 
-  socket.onDatagram((lent, from) => {
-    if (isClosed || from.port !== to.port) return;
-    const read = readReply(lent);
-    if (read.kind === "flawed" || read.packet.division !== division) return;
-    const { packet: reply } = read;
-    for (const asked of [current, urgent]) {
-      if (asked === null || asked.id !== reply.id || asked.question.service !== reply.service) continue;
-      // A block that was answered before its turn is the answer to an older packet.
-      if (asked.question.block !== undefined && !belongs(asked.question, reply)) continue;
-      onRoundTrip?.(scheduler.now_s() - (asked.next_s - asked.question.patience_s[asked.said - 1]!));
-      end(asked, { kind: "answer", reply: { ...reply, data: reply.data.slice() } });
-      return;
-    }
-  });
-  const stop = scheduler.every(LOOK_S, () => {
-    const now_s = scheduler.now_s();
-    for (const asked of [current, urgent]) {
-      if (asked === null || now_s < asked.next_s - 1e-9) continue;
-      if (asked.said < asked.question.patience_s.length) send(asked);
-      else end(asked, { kind: "silent", after_s: now_s - asked.begun_s });
-    }
-  });
-
+function hsesClientOf(own: HsesClient): Client {
   return {
     ask: question =>
       new Promise(resolve => {
-        if (isClosed || waiting.length >= MOST_WAITING) {
+        if (own.isClosed || own.waiting.length >= MOST_WAITING) {
           resolve({ kind: "silent", after_s: 0 });
           return;
         }
-        const id = question.block === undefined ? nextId() : lastId;
-        waiting.push({
+        const id = question.block === undefined ? own.nextId() : own.lastId;
+        own.waiting.push({
           id,
           question,
-          bytes: packet(question, id).slice(),
+          bytes: own.packet(question, id).slice(),
           resolve,
-          begun_s: scheduler.now_s(),
+          begun_s: own.scheduler.now_s(),
           said: 0,
           next_s: 0,
         });
-        goOn();
+        own.goOn();
       }),
     say(question) {
-      if (!isClosed) socket.send(packet(question, question.block === undefined ? nextId() : lastId), to);
+      if (!own.isClosed)
+        own.socket.send(own.packet(question, question.block === undefined ? own.nextId() : own.lastId), own.to);
     },
     close() {
-      if (isClosed) return;
-      isClosed = true;
-      stop();
-      const left = [current, urgent, ...waiting];
-      waiting = [];
-      current = urgent = null;
+      if (own.isClosed) return;
+      own.isClosed = true;
+      own.stop();
+      const left = [own.current, own.urgent, ...own.waiting];
+      own.waiting = [];
+      own.current = own.urgent = null;
       for (const asked of left) asked?.resolve({ kind: "silent", after_s: 0 });
-      socket.close();
+      own.socket.close();
     },
   };
 }

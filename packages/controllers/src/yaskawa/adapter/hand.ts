@@ -1,5 +1,6 @@
 import type { CommandOutcome, Refusal, Robot, Scheduler } from "@twincell/core";
-import type { AdapterMotion } from "../../driver/index.ts";
+import { Execution, type AdapterMotion } from "../../driver/index.ts";
+import { stopped } from "../../outcomes.ts";
 import { ADDED, COMMAND, ON, SERVICE, word, type PulseScale } from "../codec/index.ts";
 import type { Client, Question } from "./client.ts";
 import { cancelError, holdOff, holdOn, resetAlarm, sayHold, saySevered, servoOff, servoOn } from "./holds.ts";
@@ -49,7 +50,6 @@ interface Going {
   seenRunning: boolean;
   /** States in a row in which it stood. */
   standing: number;
-  stopping: Refusal | null;
 }
 export interface HandOptions {
   readonly robot: Robot;
@@ -76,7 +76,7 @@ export const unsayableMotion = (
  * The hand on the robot: one motion or one job at a time. A change of override stops a motion by a hold and tells it
  * again at the new speed: its targets are absolute, and a straight line goes on along itself.
  */
-export class Hand {
+export class Hand extends Execution<Going> {
   override = 1;
   /** Drives were taken off from here and are not on again. */
   emergency = false;
@@ -86,7 +86,6 @@ export class Hand {
   stops = 0;
   private readonly options: HandOptions;
   private client: Client | null = null;
-  private going: Going | null = null;
   private poll = 0;
   /** A hold of ours is on, or on its way; since which poll it is known to be. */
   private hold: { acknowledged: number } | null = null;
@@ -94,6 +93,7 @@ export class Hand {
   private looks: (() => void)[] = [];
 
   constructor(options: HandOptions) {
+    super();
     this.options = options;
   }
 
@@ -106,7 +106,7 @@ export class Hand {
 
   /** The line is given up: with a motion under way a hold is its last word. */
   letDrop(): void {
-    const { client, going } = this;
+    const { client, moving: going } = this;
     if (client && going) {
       sayHold(client);
       sayHold(client);
@@ -114,7 +114,7 @@ export class Hand {
     }
     this.client = null;
     this.isLettingGo = false;
-    this.end({ kind: "stopped", why: linkClosed(this.options.robot) });
+    this.settle({ kind: "stopped", why: linkClosed(this.options.robot) });
     for (const look of this.looks.splice(0)) look();
   }
 
@@ -132,7 +132,7 @@ export class Hand {
 
   stop(emergency: boolean): void {
     this.stops++;
-    const { client, going } = this;
+    const { client, moving: going } = this;
     if (emergency) {
       this.emergency = true;
       if (client) {
@@ -140,12 +140,12 @@ export class Hand {
         void servoOff(client);
       }
     }
-    if (going) going.stopping ??= wasStopped(this.options.robot);
+    if (going) this.ending ??= stopped(wasStopped(this.options.robot));
     this.grip();
   }
 
   setOverride(ratio: number): Refusal | null {
-    const { going } = this;
+    const { moving: going } = this;
     if (going && going.motion === null && ratio !== 0 && ratio !== 1) return jobPace(this.options.robot);
     if (ratio === this.override) return null;
     this.override = ratio;
@@ -190,7 +190,7 @@ export class Hand {
   look(poll: number): void {
     for (const look of this.looks.splice(0)) look();
     const { status } = this.options.state;
-    const { hold, going } = this;
+    const { hold, moving: going } = this;
     if (hold && hold.acknowledged !== 0 && poll > hold.acknowledged && !status.running) {
       this.stood();
       return;
@@ -205,15 +205,15 @@ export class Hand {
     const isOver = ++going.standing >= STANDS;
     const because = standsBecause(status);
     const robot = this.options.robot;
-    if (going.motion !== null && this.isThere(going)) this.end({ kind: "done" });
+    if (going.motion !== null && this.isThere(going)) this.settle({ kind: "done" });
     else if (!isOver) return;
-    else if (going.motion === null && going.seenRunning && because === undefined) this.end({ kind: "done" });
+    else if (going.motion === null && going.seenRunning && because === undefined) this.settle({ kind: "done" });
     else if (
       going.seenRunning ||
       because !== undefined ||
       this.options.scheduler.now_s() - going.acceptedAt_s > START_S
     ) {
-      this.end(
+      this.settle(
         going.motion === null && because === undefined
           ? { kind: "done" }
           : {
@@ -228,9 +228,9 @@ export class Hand {
     if (!this.client) return refusal(linkClosed(this.options.robot));
     this.complaint = "";
     // One that was stopped and has not been let go of yet.
-    this.end({ kind: "stopped", why: wasStopped(this.options.robot) });
-    return new Promise(resolve => {
-      this.going = {
+    this.settle({ kind: "stopped", why: wasStopped(this.options.robot) });
+    return this.execute(
+      resolve => ({
         motion,
         end,
         resolve,
@@ -240,15 +240,16 @@ export class Hand {
         acceptedAt_s: 0,
         seenRunning: false,
         standing: 0,
-        stopping: null,
-      };
-      this.goOn();
-    });
+      }),
+      () => {
+        this.goOn();
+      },
+    );
   }
 
   /** Tells what waits, when nothing holds the robot; lets go of a hold that has done its work. */
   private goOn(): void {
-    const { going, hold } = this;
+    const { moving: going, hold } = this;
     if (this.isLettingGo || this.emergency) return;
     if (hold) {
       if (hold.acknowledged === 0 && this.client && going?.phase === "waiting") {
@@ -278,12 +279,12 @@ export class Hand {
     going.phase = "asking";
     for (let tries = 1, passed = 0; ; tries++) {
       const answer = await client.ask({ ...command, patience_s: ONCE_S });
-      if (this.going !== going || this.client !== client) return;
+      if (this.moving !== going || this.client !== client) return;
       const isTaken = answer.kind === "answer" && answer.reply.status === 0;
       if (answer.kind === "silent") {
         await this.nextLook();
         await this.nextLook();
-        if (this.going !== going || this.client !== client) return;
+        if (this.moving !== going || this.client !== client) return;
       }
       if (
         isTaken ||
@@ -307,10 +308,10 @@ export class Hand {
       if (answer.kind === "silent" && tries < MOST_TRIES) continue;
       if (answer.kind === "answer" && PASSING.includes(answer.reply.added) && passed++ < MOST_PASSING) {
         await this.nextLook();
-        if (this.going !== going || this.client !== client) return;
+        if (this.moving !== going || this.client !== client) return;
         continue;
       }
-      this.end({
+      this.settle({
         kind: going.accepted ? "stopped" : "refused",
         why: notTaken(going.motion ? "The motion" : "Starting the job", answer),
       });
@@ -333,14 +334,14 @@ export class Hand {
 
   /** The robot stands under a hold of ours. */
   private stood(): void {
-    const { going } = this;
+    const { moving: going } = this;
     if (going && going.phase === "going") going.phase = "waiting";
     if (this.emergency) {
-      if (going) this.end({ kind: "stopped", why: going.stopping ?? wasStopped(this.options.robot) });
+      if (going) this.settle(this.ending ?? stopped(wasStopped(this.options.robot)));
       return;
     }
     if (this.override > 0 && !this.isLettingGo) void this.letGo();
-    else if (going?.stopping) this.end({ kind: "stopped", why: going.stopping });
+    else if (going && this.ending) this.settle(this.ending);
   }
 
   private async letGo(): Promise<void> {
@@ -351,13 +352,13 @@ export class Hand {
     const answer = await holdOff(client);
     this.isLettingGo = false;
     if (this.client !== client || this.hold !== held) return;
-    const { going } = this;
+    const { moving: going } = this;
     if (answer.kind === "silent" || answer.reply.status !== 0) {
-      this.end({ kind: "stopped", why: notTaken("Releasing the hold", answer) });
+      this.settle({ kind: "stopped", why: notTaken("Releasing the hold", answer) });
       return;
     }
     this.hold = null;
-    if (going?.stopping) this.end({ kind: "stopped", why: going.stopping });
+    if (going && this.ending) this.settle(this.ending);
     this.goOn();
   }
 
@@ -375,11 +376,6 @@ export class Hand {
       if (this.client) this.looks.push(resolve);
       else resolve();
     });
-  }
-  private end(outcome: CommandOutcome): void {
-    const ended = this.going;
-    this.going = null;
-    ended?.resolve(outcome);
   }
 }
 

@@ -1,3 +1,5 @@
+import type { Division } from "../codec/packet.ts";
+import type { DatagramSocket } from "../../transport/port.ts";
 import {
   brakingTime_s,
   identity,
@@ -6,6 +8,7 @@ import {
   type Pose,
   type Robot,
   type Scheduler,
+  type Random,
 } from "@twincell/core";
 import { addressText, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
@@ -27,7 +30,7 @@ import {
 } from "../codec/index.ts";
 import { answerer, type Answer } from "./answers.ts";
 import { faultySocket, noFaults, type Faults } from "./faults.ts";
-import { fileServer } from "./files.ts";
+import { fileServer, type FileAnswer } from "./files.ts";
 import { Files } from "./jobs.ts";
 import { Machine, type Interpret, type KeySwitch } from "./machine.ts";
 import { Lines, Variables } from "./memory.ts";
@@ -130,9 +133,7 @@ interface Client {
  * virtual robot.
  */
 export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Promise<YaskawaStart> {
-  const { robot, scheduler, network, host } = options;
-  const random = seededRandom(options.seed ?? 1);
-  const faults = noFaults();
+  const { network, host } = options;
   const wanted = options.ports ?? { robot: ROBOT_PORT, files: FILE_PORT };
   const robotPort = await network.bind({ host, port: wanted.robot });
   if (robotPort.kind === "taken") return robotPort;
@@ -141,109 +142,114 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
     robotPort.socket.close();
     return filePort;
   }
+  return { kind: "listening", controller: yaskawaOn(options, robotPort.socket, filePort.socket) };
+}
 
-  const { start_rad, maxSpeed, initialize, onMotion } = options;
-  const neutral = createVirtualController({
-    robot,
-    scheduler,
-    cycle_s: options.cycle_s ?? CYCLE_S,
-    ...(start_rad ? { start_rad } : {}),
-    ...(maxSpeed === undefined ? {} : { maxSpeed }),
-    ...(initialize ? { initialize } : {}),
-  });
-  const scale = options.scale ?? exampleScale(robot);
-  const files = new Files();
-  const variables = new Variables();
-  const lines = new Lines(neutral.signals);
-  const zero_s = scheduler.now_s();
-  const unix_s = (): number => (options.began_unix_s ?? 0) + scheduler.now_s() - zero_s;
-  const machine = new Machine({
-    robot,
-    neutral,
-    files,
-    mode: options.mode ?? "remote",
-    servo: options.servo ?? true,
-    servoOn_s: options.servoOn_s ?? 0.4,
-    unix_s,
-    ...(options.interpret ? { interpret: options.interpret } : {}),
-  });
-  let text = "";
-  let isOff = false;
-  let stopWaiting: () => void = () => {
-    /* Nothing is waited for yet. */
-  };
-  const answer = answerer({
-    robot,
-    neutral,
-    machine,
-    lines,
-    variables,
-    scale,
-    model: options.model ?? robot.vendorSection?.model ?? robot.name.toUpperCase(),
-    unix_s,
-    display: shown => {
-      text = shown;
-    },
-    tools: new Map([[0, identity<"flange", "tcp">()], ...(options.tools ?? [])]),
-    users: options.users ?? new Map<number, Pose<"base", "frame">>(),
-    ...(onMotion ? { onMotion } : {}),
-  });
-  const answerFile = fileServer({
-    files,
-    now_s: () => scheduler.now_s(),
-    fromOutside: () => machine.fromOutside(),
-    isRunning: () => machine.isBusy,
-  });
-  const clients = new Map<string, Client>();
-  const logged = new Set<string>();
+function yaskawaOn(
+  options: VirtualYaskawaOptions,
+  robotPort: DatagramSocket,
+  filePort: DatagramSocket,
+): VirtualYaskawa {
+  return virtualYaskawaOf(new YaskawaControllerState(options, robotPort, filePort));
+}
 
-  /**
-   * An order that comes again with the same id gets the same answer and is not carried out again. Clients that never
-   * change their id cannot be told apart from themselves: theirs are always new.
-   */
-  function once(request: HsesRequest, from: string): Answer {
-    const now_s = scheduler.now_s();
-    const known = clients.get(from);
-    const client: Client = known ?? { id: request.id, counts: false, at_s: now_s, order: null, answer: null };
-    if (!known) {
-      if (clients.size >= MOST_CLIENTS) clients.delete(clients.keys().next().value!);
-      clients.set(from, client);
-    }
-    client.counts ||= request.id !== client.id;
-    const isOrder = !READING.includes(request.service);
-    const bytes = isOrder ? orderBytes(request) : null;
-    if (bytes && client.counts && client.answer && now_s - client.at_s <= AGAIN_S && same(client.order, bytes))
-      return client.answer;
-    const answered = answer(request);
-    client.id = request.id;
-    if (bytes) {
-      client.order = bytes;
-      client.answer = answered;
-      client.at_s = now_s;
-    }
-    return answered;
+class YaskawaControllerState {
+  readonly options: VirtualYaskawaOptions;
+  readonly robotPort: DatagramSocket;
+  readonly filePort: DatagramSocket;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly random: Random;
+  readonly faults = noFaults();
+  readonly start_rad: ArrayLike<number> | undefined;
+  readonly maxSpeed: number | undefined;
+  readonly initialize: (() => void) | undefined;
+  readonly onMotion: ((q_rad: ArrayLike<number>) => void) | undefined;
+  readonly neutral: VirtualController;
+  readonly scale: PulseScale;
+  readonly files = new Files();
+  readonly variables = new Variables();
+  readonly lines: Lines;
+  readonly zero_s: number;
+  readonly machine: Machine;
+  text = "";
+  isOff = false;
+  readonly answer: (request: HsesRequest) => Answer;
+  readonly answerFile: (request: HsesRequest, from: string) => FileAnswer | null;
+  readonly clients = new Map<string, Client>();
+  readonly logged = new Set<string>();
+  readonly out = new Uint8Array(HEADER_BYTES + MAX_DATA_BYTES);
+  readonly nothing = new Uint8Array(0);
+  readonly robotSocket: DatagramSocket;
+  readonly fileSocket: DatagramSocket;
+
+  constructor(options: VirtualYaskawaOptions, robotPort: DatagramSocket, filePort: DatagramSocket) {
+    this.options = options;
+    this.robotPort = robotPort;
+    this.filePort = filePort;
+    this.robot = this.options.robot;
+    this.scheduler = this.options.scheduler;
+    this.random = seededRandom(this.options.seed ?? 1);
+    this.start_rad = this.options.start_rad;
+    this.maxSpeed = this.options.maxSpeed;
+    this.initialize = this.options.initialize;
+    this.onMotion = this.options.onMotion;
+    this.neutral = createVirtualController({
+      robot: this.robot,
+      scheduler: this.scheduler,
+      cycle_s: this.options.cycle_s ?? CYCLE_S,
+      ...(this.start_rad ? { start_rad: this.start_rad } : {}),
+      ...(this.maxSpeed === undefined ? {} : { maxSpeed: this.maxSpeed }),
+      ...(this.initialize ? { initialize: this.initialize } : {}),
+    });
+    this.scale = this.options.scale ?? exampleScale(this.robot);
+    this.lines = new Lines(this.neutral.signals);
+    this.zero_s = this.scheduler.now_s();
+    this.machine = new Machine({
+      robot: this.robot,
+      neutral: this.neutral,
+      files: this.files,
+      mode: this.options.mode ?? "remote",
+      servo: this.options.servo ?? true,
+      servoOn_s: this.options.servoOn_s ?? 0.4,
+      unix_s: this.unix_s,
+      ...(this.options.interpret ? { interpret: this.options.interpret } : {}),
+    });
+    this.answer = answerer({
+      robot: this.robot,
+      neutral: this.neutral,
+      machine: this.machine,
+      lines: this.lines,
+      variables: this.variables,
+      scale: this.scale,
+      model: this.options.model ?? this.robot.vendorSection?.model ?? this.robot.name.toUpperCase(),
+      unix_s: this.unix_s,
+      display: shown => {
+        this.text = shown;
+      },
+      tools: new Map([[0, identity<"flange", "tcp">()], ...(this.options.tools ?? [])]),
+      users: this.options.users ?? new Map<number, Pose<"base", "frame">>(),
+      ...(this.onMotion ? { onMotion: this.onMotion } : {}),
+    });
+    this.answerFile = fileServer({
+      files: this.files,
+      now_s: () => this.scheduler.now_s(),
+      fromOutside: () => this.machine.fromOutside(),
+      isRunning: () => this.machine.isBusy,
+    });
+    this.robotSocket = faultySocket(this.robotPort, this.faults, this.scheduler, this.random);
+    this.fileSocket = faultySocket(this.filePort, this.faults, this.scheduler, this.random);
+    this.serve(this.robotSocket, DIVISION.robot);
+    this.serve(this.fileSocket, DIVISION.file);
   }
 
-  function log(from: string, sentence: string): void {
-    const line = `${from}: ${sentence}`;
-    if (logged.size >= MOST_LOGGED || logged.has(line)) return;
-    logged.add(line);
-    options.log?.(line);
-  }
-
-  const out = new Uint8Array(HEADER_BYTES + MAX_DATA_BYTES);
-  const nothing = new Uint8Array(0);
-  const robotSocket = faultySocket(robotPort.socket, faults, scheduler, random);
-  const fileSocket = faultySocket(filePort.socket, faults, scheduler, random);
-  for (const [socket, division] of [
-    [robotSocket, DIVISION.robot],
-    [fileSocket, DIVISION.file],
-  ] as const) {
+  /** Answers what comes to one of the two ports. */
+  private serve(socket: DatagramSocket, division: Division): void {
     const send = (reply: HsesReply, to: Parameters<typeof socket.send>[1]): void => {
-      socket.send(out.subarray(0, writeReply(reply, out)), to);
+      socket.send(this.out.subarray(0, writeReply(reply, this.out)), to);
     };
     socket.onDatagram((lent, from) => {
-      if (isOff) return;
+      if (this.isOff) return;
       const read = readRequest(lent);
       const sender = addressText(from);
       const flaw =
@@ -253,7 +259,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
             ? { added: 0xe4a3, sentence: `Division ${read.packet.division} has another port.` }
             : null;
       if (read.kind === "flawed" || flaw) {
-        log(sender, flaw!.sentence);
+        this.log(sender, flaw!.sentence);
         // What is not even a header is not answered.
         if (lent.length >= HEADER_BYTES)
           send(
@@ -264,7 +270,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
               service: lent[29]! & 0x7f,
               status: STATUS.refused,
               added: flaw!.added,
-              data: nothing,
+              data: this.nothing,
             },
             from,
           );
@@ -274,83 +280,124 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
       const { id, service } = packet;
       if (division === DIVISION.robot) {
         // Answers of a robot command are one block; there is nothing to acknowledge.
-        if (!packet.ack) send({ division, id, block: LAST_BLOCK, service, ...once(packet, sender) }, from);
+        if (!packet.ack) send({ division, id, block: LAST_BLOCK, service, ...this.once(packet, sender) }, from);
         return;
       }
-      const answered = answerFile(packet, sender);
+      const answered = this.answerFile(packet, sender);
       if (answered) send({ division, id, service, ...answered }, from);
     });
   }
 
-  const controller: VirtualYaskawa = {
-    robot,
-    neutral,
-    machine,
-    lines,
-    faults,
-    files,
-    scale,
-    brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S),
-    ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
+  readonly unix_s = (): number => (this.options.began_unix_s ?? 0) + this.scheduler.now_s() - this.zero_s;
+
+  stopWaiting: () => void = () => {
+    /* Nothing is waited for yet. */
+  };
+
+  /**
+   * An order that comes again with the same id gets the same answer and is not carried out again. Clients that never
+   * change their id cannot be told apart from themselves: theirs are always new.
+   */
+  once(request: HsesRequest, from: string): Answer {
+    const now_s = this.scheduler.now_s();
+    const known = this.clients.get(from);
+    const client: Client = known ?? { id: request.id, counts: false, at_s: now_s, order: null, answer: null };
+    if (!known) {
+      if (this.clients.size >= MOST_CLIENTS) this.clients.delete(this.clients.keys().next().value!);
+      this.clients.set(from, client);
+    }
+    client.counts ||= request.id !== client.id;
+    const isOrder = !READING.includes(request.service);
+    const bytes = isOrder ? orderBytes(request) : null;
+    if (bytes && client.counts && client.answer && now_s - client.at_s <= AGAIN_S && same(client.order, bytes))
+      return client.answer;
+    const answered = this.answer(request);
+    client.id = request.id;
+    if (bytes) {
+      client.order = bytes;
+      client.answer = answered;
+      client.at_s = now_s;
+    }
+    return answered;
+  }
+
+  log(from: string, sentence: string): void {
+    const line = `${from}: ${sentence}`;
+    if (this.logged.size >= MOST_LOGGED || this.logged.has(line)) return;
+    this.logged.add(line);
+    this.options.log?.(line);
+  }
+}
+
+function virtualYaskawaOf(own: YaskawaControllerState): VirtualYaskawa {
+  return {
+    robot: own.robot,
+    neutral: own.neutral,
+    machine: own.machine,
+    lines: own.lines,
+    faults: own.faults,
+    files: own.files,
+    scale: own.scale,
+    brakingTime_s: brakingTime_s(own.robot) + 2 * (own.options.cycle_s ?? CYCLE_S),
+    ports: { robot: own.robotSocket.address.port, files: own.fileSocket.address.port },
     pendant: {
       get text() {
-        return text;
+        return own.text;
       },
       get message() {
-        return machine.message;
+        return own.machine.message;
       },
       setMode(mode) {
-        machine.turn(mode);
+        own.machine.turn(mode);
       },
       setCommandRemote(on) {
-        machine.setCommandRemote(on);
+        own.machine.setCommandRemote(on);
       },
-      setServo: on => machine.servo(on),
+      setServo: on => own.machine.servo(on),
       emergencyStop(pressed) {
-        machine.pressEmergencyStop(pressed);
+        own.machine.pressEmergencyStop(pressed);
       },
       hold(pressed) {
-        machine.hold("heldByPendant", pressed);
+        own.machine.hold("heldByPendant", pressed);
       },
-      start: () => machine.start(),
-      select: job => machine.select(job, 0),
+      start: () => own.machine.start(),
+      select: job => own.machine.select(job, 0),
       setOverride(percent) {
-        machine.setOverride(percent / 100);
+        own.machine.setOverride(percent / 100);
       },
-      jog: (q_rad, ratio) => machine.jog(q_rad, ratio),
+      jog: (q_rad, ratio) => own.machine.jog(q_rad, ratio),
       raiseAlarm(code, name, data, major) {
-        machine.raise(code, name, data, major);
+        own.machine.raise(code, name, data, major);
       },
       reset() {
-        machine.resetAlarm();
+        own.machine.resetAlarm();
       },
       setGuardOpen(open) {
-        machine.openGuard(open);
+        own.machine.openGuard(open);
       },
       setInput(number, on) {
-        lines.setInput(number, on);
+        own.lines.setInput(number, on);
       },
     },
     reboot(off_s) {
-      machine.reboot();
-      clients.clear();
-      text = "";
-      isOff = true;
-      stopWaiting();
-      const stop = scheduler.every(off_s, () => {
+      own.machine.reboot();
+      own.clients.clear();
+      own.text = "";
+      own.isOff = true;
+      own.stopWaiting();
+      const stop = own.scheduler.every(off_s, () => {
         stop();
-        isOff = false;
+        own.isOff = false;
       });
-      stopWaiting = stop;
+      own.stopWaiting = stop;
     },
     close() {
-      stopWaiting();
-      robotSocket.close();
-      fileSocket.close();
-      neutral.close();
+      own.stopWaiting();
+      own.robotSocket.close();
+      own.fileSocket.close();
+      own.neutral.close();
     },
   };
-  return { kind: "listening", controller };
 }
 
 /** What makes an order the same one: id, numbers and data. */

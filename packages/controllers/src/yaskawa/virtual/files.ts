@@ -36,118 +36,141 @@ export interface FileOptions {
 const NOTHING = new Uint8Array(0);
 
 /** Answers of division 2, block by block; null where nothing is to be said. `from` tells clients apart. */
-export function fileServer({
-  files,
-  now_s,
-  fromOutside,
-  isRunning,
-}: FileOptions): (request: HsesRequest, from: string) => FileAnswer | null {
-  const transfers = new Map<string, Transfer>();
-  const refused = (added: number, block = LAST_BLOCK): FileAnswer => ({
-    block,
-    status: STATUS.refused,
-    added,
-    data: NOTHING,
-  });
-  const well = (block: number, data: Uint8Array = NOTHING): FileAnswer => ({
-    block,
-    status: STATUS.well,
-    added: 0,
-    data,
-  });
+export function fileServer(options: FileOptions): (request: HsesRequest, from: string) => FileAnswer | null {
+  return fileServerOf(new FileTransfers(options));
+}
 
-  const unfit = (): number => (fromOutside() !== 0 ? ADDED.remoteOff : isRunning() ? ADDED.moving : 0);
-  function begin(from: string, service: number, name: string, outgoing: Uint8Array | null): Transfer | null {
-    for (const [client, { at_s }] of transfers) if (now_s() - at_s > PATIENCE_S) transfers.delete(client);
-    if (transfers.size >= MOST_TRANSFERS && !transfers.has(from)) return null;
-    const transfer: Transfer = { service, name, outgoing, incoming: [], bytes: 0, block: 0, at_s: now_s() };
-    transfers.set(from, transfer);
+class FileTransfers {
+  readonly files: Files;
+  readonly now_s: () => number;
+  readonly fromOutside: () => number;
+  readonly isRunning: () => boolean;
+  readonly transfers = new Map<string, Transfer>();
+
+  constructor({ files, now_s, fromOutside, isRunning }: FileOptions) {
+    this.files = files;
+    this.now_s = now_s;
+    this.fromOutside = fromOutside;
+    this.isRunning = isRunning;
+  }
+
+  refused(added: number, block = LAST_BLOCK): FileAnswer {
+    return {
+      block,
+      status: STATUS.refused,
+      added,
+      data: NOTHING,
+    };
+  }
+
+  well(block: number, data: Uint8Array = NOTHING): FileAnswer {
+    return {
+      block,
+      status: STATUS.well,
+      added: 0,
+      data,
+    };
+  }
+
+  unfit(): number {
+    return this.fromOutside() !== 0 ? ADDED.remoteOff : this.isRunning() ? ADDED.moving : 0;
+  }
+
+  begin(from: string, service: number, name: string, outgoing: Uint8Array | null): Transfer | null {
+    for (const [client, { at_s }] of this.transfers)
+      if (this.now_s() - at_s > PATIENCE_S) this.transfers.delete(client);
+    if (this.transfers.size >= MOST_TRANSFERS && !this.transfers.has(from)) return null;
+    const transfer: Transfer = { service, name, outgoing, incoming: [], bytes: 0, block: 0, at_s: this.now_s() };
+    this.transfers.set(from, transfer);
     return transfer;
   }
 
   /** The block of that number, counted from 1. */
-  function block(outgoing: Uint8Array, number: number): FileAnswer {
+  block(outgoing: Uint8Array, number: number): FileAnswer {
     const data = outgoing.subarray((number - 1) * BLOCK_BYTES, number * BLOCK_BYTES);
-    return well(number * BLOCK_BYTES >= outgoing.length ? (number | LAST_BLOCK) >>> 0 : number, data);
+    return this.well(number * BLOCK_BYTES >= outgoing.length ? (number | LAST_BLOCK) >>> 0 : number, data);
   }
 
-  function ask({ service, data }: HsesRequest, from: string): FileAnswer {
+  ask({ service, data }: HsesRequest, from: string): FileAnswer {
     const name = textAt(data, 0, data.length).trim();
     switch (service) {
       case SERVICE.listFiles: {
         const ending = /^\*(\.[A-Z]{3})$/.exec(name.toUpperCase())?.[1];
-        if (ending === undefined) return refused(0xe2a7);
+        if (ending === undefined) return this.refused(0xe2a7);
         const text = textBytes(
-          files
+          this.files
             .names(ending)
             .map(each => `${each}\r\n`)
             .join(""),
         );
-        return begin(from, service, name, text) ? block(text, 1) : refused(ADDED.busy);
+        return this.begin(from, service, name, text) ? this.block(text, 1) : this.refused(ADDED.busy);
       }
       case SERVICE.loadFile: {
-        const text = files.read(name);
-        if (text === undefined) return refused(ADDED.noSuchFile);
+        const text = this.files.read(name);
+        if (text === undefined) return this.refused(ADDED.noSuchFile);
         const outgoing = textBytes(text);
-        return begin(from, service, name, outgoing) ? block(outgoing, 1) : refused(ADDED.busy);
+        return this.begin(from, service, name, outgoing) ? this.block(outgoing, 1) : this.refused(ADDED.busy);
       }
       case SERVICE.saveFile: {
-        const why = unfit();
-        if (why !== 0) return refused(why);
-        if (name === "") return refused(ADDED.badJobName);
-        return begin(from, service, name, null) ? well(0) : refused(ADDED.busy);
+        const why = this.unfit();
+        if (why !== 0) return this.refused(why);
+        if (name === "") return this.refused(ADDED.badJobName);
+        return this.begin(from, service, name, null) ? this.well(0) : this.refused(ADDED.busy);
       }
       case SERVICE.deleteFile: {
-        const why = unfit();
-        if (why !== 0) return refused(why);
-        return files.remove(name) ? well(LAST_BLOCK) : refused(ADDED.noSuchFile);
+        const why = this.unfit();
+        if (why !== 0) return this.refused(why);
+        return this.files.remove(name) ? this.well(LAST_BLOCK) : this.refused(ADDED.noSuchFile);
       }
       default:
-        return refused(ADDED.noCommand);
+        return this.refused(ADDED.noCommand);
     }
   }
 
   /** An acknowledgement of what was sent, or a block of what is being received. */
-  function go(request: HsesRequest, from: string): FileAnswer | null {
-    const transfer = transfers.get(from);
+  go(request: HsesRequest, from: string): FileAnswer | null {
+    const transfer = this.transfers.get(from);
     const number = (request.block & ~LAST_BLOCK) >>> 0;
     const isLast = request.block >= LAST_BLOCK;
     if (transfer === undefined || transfer.service !== request.service)
-      return refused(ADDED.receiveTimeout, request.block);
-    if (now_s() - transfer.at_s > PATIENCE_S) {
-      transfers.delete(from);
-      return refused(ADDED.receiveTimeout, request.block);
+      return this.refused(ADDED.receiveTimeout, request.block);
+    if (this.now_s() - transfer.at_s > PATIENCE_S) {
+      this.transfers.delete(from);
+      return this.refused(ADDED.receiveTimeout, request.block);
     }
-    transfer.at_s = now_s();
+    transfer.at_s = this.now_s();
     if (transfer.outgoing !== null) {
       if (isLast) {
-        transfers.delete(from);
+        this.transfers.delete(from);
         return null;
       }
       return number * BLOCK_BYTES < transfer.outgoing.length
-        ? block(transfer.outgoing, number + 1)
-        : refused(0xe4a1, request.block);
+        ? this.block(transfer.outgoing, number + 1)
+        : this.refused(0xe4a1, request.block);
     }
     // The answer to a block was lost: the same block once more.
-    if (number === transfer.block) return well(request.block);
+    if (number === transfer.block) return this.well(request.block);
     if (number !== transfer.block + 1) {
-      transfers.delete(from);
-      return refused(0xe4a1, request.block);
+      this.transfers.delete(from);
+      return this.refused(0xe4a1, request.block);
     }
     transfer.bytes += request.data.length;
     if (transfer.bytes > MOST_BYTES) {
-      transfers.delete(from);
-      return refused(ADDED.memoryFull, request.block);
+      this.transfers.delete(from);
+      return this.refused(ADDED.memoryFull, request.block);
     }
     transfer.incoming.push(request.data.slice());
     transfer.block = number;
-    if (!isLast) return well(request.block);
+    if (!isLast) return this.well(request.block);
     const why =
-      unfit() || files.save(transfer.name, transfer.incoming.map(bytes => textAt(bytes, 0, bytes.length)).join(""));
+      this.unfit() ||
+      this.files.save(transfer.name, transfer.incoming.map(bytes => textAt(bytes, 0, bytes.length)).join(""));
     transfer.incoming.length = 0;
-    if (why !== 0) transfers.delete(from);
-    return why === 0 ? well(request.block) : refused(why, request.block);
+    if (why !== 0) this.transfers.delete(from);
+    return why === 0 ? this.well(request.block) : this.refused(why, request.block);
   }
+}
 
-  return (request, from) => (request.ack ? go(request, from) : ask(request, from));
+function fileServerOf(own: FileTransfers): (request: HsesRequest, from: string) => FileAnswer | null {
+  return (request, from) => (request.ack ? own.go(request, from) : own.ask(request, from));
 }

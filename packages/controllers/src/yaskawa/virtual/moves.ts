@@ -37,50 +37,68 @@ const MOST_RATIO = 10_000;
 
 /** Orders to move: data looked at, the posture found, the motion handed to the machine. */
 export function moveOrders(options: MoveOptions): MoveOrders {
-  const { robot, neutral, machine, scale } = options;
-  const n = robot.arm.joints.length;
-  const baseFromVendor = robot.baseFromVendorWorld as Pose as Pose<"base", "frame">;
+  return moveOrdersOf(new Moves(options));
+}
 
-  function movePulse(path: number, data: Uint8Array): number {
+class Moves {
+  readonly options: MoveOptions;
+  readonly robot: Robot;
+  readonly neutral: VirtualController;
+  readonly machine: Machine;
+  readonly scale: PulseScale;
+  readonly n: number;
+  readonly baseFromVendor: Pose<"base", "frame">;
+
+  constructor(options: MoveOptions) {
+    this.options = options;
+    this.robot = this.options.robot;
+    this.neutral = this.options.neutral;
+    this.machine = this.options.machine;
+    this.scale = this.options.scale;
+    this.n = this.robot.arm.joints.length;
+    this.baseFromVendor = this.robot.baseFromVendorWorld as Pose as Pose<"base", "frame">;
+  }
+
+  readonly movePulse = (path: number, data: Uint8Array): number => {
     const move = readPulseMove(data);
     if (path !== PULSE_PATH.joint && path !== PULSE_PATH.straight) return ADDED.noInstance;
     if (!move) return ADDED.size;
     if (move.robot !== 1) return ADDED.noGroup;
-    if (!options.tools.has(move.tool)) return ADDED.tool;
-    const q_rad = radiansOf(move.axes, scale, robot, new Float64Array(n));
-    if (!inside(q_rad)) return ADDED.outOfRange;
-    return go(path === PULSE_PATH.joint, q_rad, { q: [...q_rad] }, move, move.tool);
-  }
+    if (!this.options.tools.has(move.tool)) return ADDED.tool;
+    const q_rad = radiansOf(move.axes, this.scale, this.robot, new Float64Array(this.n));
+    if (!this.inside(q_rad)) return ADDED.outOfRange;
+    return this.go(path === PULSE_PATH.joint, q_rad, { q: [...q_rad] }, move, move.tool);
+  };
 
-  function moveCartesian(path: number, data: Uint8Array): number {
+  readonly moveCartesian = (path: number, data: Uint8Array): number => {
     const move = readCartesianMove(data);
     if (path < CARTESIAN_PATH.joint || path > CARTESIAN_PATH.straightBy) return ADDED.noInstance;
     if (!move) return ADDED.size;
     if (move.robot !== 1) return ADDED.noGroup;
-    const flangeFromTcp = options.tools.get(move.tool);
-    const now_rad = neutral.jointAngles();
+    const flangeFromTcp = this.options.tools.get(move.tool);
+    const now_rad = this.neutral.jointAngles();
     if (!flangeFromTcp) return ADDED.tool;
-    const baseFromTcp = compose(flangePose(robot.arm, now_rad), flangeFromTcp);
+    const baseFromTcp = compose(flangePose(this.robot.arm, now_rad), flangeFromTcp);
     const frame =
       move.frame === MOVE_FRAME.base || move.frame === MOVE_FRAME.robot
-        ? baseFromVendor
+        ? this.baseFromVendor
         : move.frame === MOVE_FRAME.user
-          ? options.users.get(move.user)
+          ? this.options.users.get(move.user)
           : move.frame === MOVE_FRAME.tool && path === CARTESIAN_PATH.straightBy
             ? (baseFromTcp as Pose as Pose<"base", "frame">)
             : null;
     if (frame === null) return ADDED.frame;
     if (frame === undefined) return ADDED.userFrame;
     const said = poseAt<"frame", "tcp">(move.place);
-    const target = path === CARTESIAN_PATH.straightBy ? shifted(frame, baseFromTcp, said) : compose(frame, said);
-    const reach = solveAll(robot, compose(target, inverse(flangeFromTcp)), { near: now_rad });
+    const target = path === CARTESIAN_PATH.straightBy ? this.shifted(frame, baseFromTcp, said) : compose(frame, said);
+    const reach = solveAll(this.robot, compose(target, inverse(flangeFromTcp)), { near: now_rad });
     if (reach.kind !== "reached") return ADDED.outOfRange;
     const q_rad =
       path === CARTESIAN_PATH.joint
-        ? reach.solutions.find(solution => formOf(robot, solution.q_rad) === (move.form & 0x3f))?.q_rad
+        ? reach.solutions.find(solution => formOf(this.robot, solution.q_rad) === (move.form & 0x3f))?.q_rad
         : reach.solutions[0]!.q_rad;
     if (!q_rad) return ADDED.outOfRange;
-    return go(
+    return this.go(
       path === CARTESIAN_PATH.joint,
       q_rad,
       path === CARTESIAN_PATH.joint
@@ -89,10 +107,10 @@ export function moveOrders(options: MoveOptions): MoveOrders {
       move,
       move.tool,
     );
-  }
+  };
 
   /** By so much along the axes of a frame, turned about where the tool is. */
-  function shifted(
+  shifted(
     baseFromFrame: Pose<"base", "frame">,
     baseFromTcp: Pose<"base", "tcp">,
     by: Pose<"frame", "tcp">,
@@ -108,10 +126,14 @@ export function moveOrders(options: MoveOptions): MoveOrders {
       quaternion: turned.quaternion,
     } as Pose<"frame", "tcp">);
   }
-  const inside = (q_rad: ArrayLike<number>): boolean =>
-    robot.arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad && q_rad[i]! <= limits.upper_rad);
 
-  function go(
+  inside(q_rad: ArrayLike<number>): boolean {
+    return this.robot.arm.joints.every(
+      ({ limits }, i) => q_rad[i]! >= limits.lower_rad && q_rad[i]! <= limits.upper_rad,
+    );
+  }
+
+  go(
     isJoint: boolean,
     q_rad: ArrayLike<number>,
     target: MoveTarget,
@@ -133,14 +155,17 @@ export function moveOrders(options: MoveOptions): MoveOrders {
       blend_m: 0,
       speed: isJoint
         ? { ratio }
-        : { mps: speedClass === SPEED_CLASS.ratio ? ratio * robot.maxTcpSpeed_mps : speed / 10_000 },
+        : { mps: speedClass === SPEED_CLASS.ratio ? ratio * this.robot.maxTcpSpeed_mps : speed / 10_000 },
     };
-    const why = machine.move(step, {
-      tools: Object.fromEntries([...options.tools].map(([number, pose]) => [`${number}`, pose])),
+    const why = this.machine.move(step, {
+      tools: Object.fromEntries([...this.options.tools].map(([number, pose]) => [`${number}`, pose])),
       frames: {},
     });
-    if (why === 0) options.onMotion?.(q_rad);
+    if (why === 0) this.options.onMotion?.(q_rad);
     return why;
   }
-  return { pulse: movePulse, cartesian: moveCartesian };
+}
+
+function moveOrdersOf(own: Moves): MoveOrders {
+  return { pulse: own.movePulse, cartesian: own.moveCartesian };
 }

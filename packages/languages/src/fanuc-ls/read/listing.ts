@@ -50,89 +50,113 @@ const blank = (text: string): string => " ".repeat(text.length);
  */
 export function readListings(
   text: string,
-  label: (word: string, number: number, name: string) => void,
+  label: Labelling,
 ): { readonly programs: readonly ListedProgram[]; readonly registers: RegisterValues } {
   const lines = plainText(text).split(/\r\n|\n|\r/);
-  const programs: ListedProgram[] = [];
-  let section = "";
-  let name = "";
-  let comment = "";
-  let from = 0;
-  let opened: TextPlace = { line: 1, column: 1 };
-  let code: string[] = [];
-  let positions = new Map<number, PositionRecord>();
-  let record: RecordReader | undefined;
-  let isGerman = false;
-  const registers = new RegisterReader();
-  let inRegisters = false;
-  for (const [i, raw] of lines.entries()) {
-    const line = i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw;
+  const reader = new ListingReader(label);
+  for (const [i, raw] of lines.entries())
+    reader.line(i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw, i);
+  return reader.end(lines.length);
+}
+
+type Labelling = (word: string, number: number, name: string) => void;
+
+class ListingReader {
+  private readonly label: Labelling;
+  private readonly programs: ListedProgram[] = [];
+  private readonly registers = new RegisterReader();
+  private section = "";
+  private name = "";
+  private comment = "";
+  /** Lines before the program. */
+  private from = 0;
+  private opened: TextPlace = { line: 1, column: 1 };
+  private code: string[] = [];
+  private positions = new Map<number, PositionRecord>();
+  private record: RecordReader | undefined;
+  private isGerman = false;
+  private inRegisters = false;
+
+  constructor(label: Labelling) {
+    this.label = label;
+  }
+
+  /** @param i  lines before it. */
+  line(line: string, i: number): void {
     const place = { line: i + 1, column: 1 + (/\S/.exec(line)?.index ?? 0) };
     const head = line.trimStart().startsWith("/") && !line.trimStart().startsWith("//") ? SECTION.exec(line) : null;
-    if (head !== null) {
-      const next = head[1]!.toUpperCase();
-      const rest = head[2]!.trim();
-      if (record !== undefined) throw new TextError(place, "};", "The position is not closed.");
-      if (next === "PROG") {
-        if (section !== "") throw new TextError(place, "/END", "A program begins inside another.");
-        const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
-        if (found === undefined) throw new TextError(place, "the name of the program", "The program has no name.");
-        name = found;
-        isGerman = false;
-        inRegisters = false;
-        registers.close();
-        comment = "";
-        code = [];
-        positions = new Map();
-        from = i;
-        opened = place;
-      } else if (section === "") throw new TextError(place, "/PROG", `/${next} stands outside a program.`);
-      if (next === "END") {
-        programs.push({ name, comment, code: "\n".repeat(from) + code.join("\n"), positions, ...opened });
-        section = "";
-      } else section = next;
-      code.push("");
-      continue;
+    if (head !== null) return this.head(head[1]!.toUpperCase(), head[2]!.trim(), place);
+    if (this.section === "MN") {
+      this.code.push(statementOf(line, i + 1, this.label, this.isGerman));
+      return;
     }
-    switch (section) {
-      case "MN":
-        code.push(statementOf(line, i + 1, label, isGerman));
-        break;
-      case "POS": {
-        code.push("");
-        if (line.trim() === "") break;
-        record ??= RecordReader.begin(line, place);
-        if (record.take(line, place)) {
-          positions.set(record.number, record.done());
-          record = undefined;
-        }
-        break;
-      }
-      case "ATTR": {
-        code.push("");
-        isGerman ||= isGermanHead(line);
-        const found = /^\s*(?:COMMENT|KOMMENTAR)\s*=\s*"([^"]*)"/i.exec(line)?.[1];
-        if (found !== undefined) comment = found.trim();
-        break;
-      }
-      default:
-        code.push("");
-        if (section !== "") break;
-        if (VARIABLE_HEAD.test(line)) {
-          registers.head(line);
-          inRegisters = true;
-        } else if (inRegisters) registers.take(line);
-        else if (line.trim() !== "") throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
+    this.code.push("");
+    switch (this.section) {
+      case "POS":
+        return this.position(line, place);
+      case "ATTR":
+        return this.attribute(line);
+      case "":
+        return this.outside(line, place);
     }
   }
-  if (section !== "" || programs.length === 0)
-    throw new TextError(
-      { line: lines.length, column: 1 },
-      section === "" ? "/PROG" : "/END",
-      section === "" ? "The text holds no program." : `The program ${name} has no end.`,
-    );
-  registers.close();
-  return { programs, registers: registers.registers };
+
+  private head(next: string, rest: string, place: TextPlace): void {
+    if (this.record !== undefined) throw new TextError(place, "};", "The position is not closed.");
+    if (next === "PROG") this.begin(rest, place);
+    else if (this.section === "") throw new TextError(place, "/PROG", `/${next} stands outside a program.`);
+    if (next === "END") {
+      const { name, comment, from, code, positions, opened } = this;
+      this.programs.push({ name, comment, code: "\n".repeat(from) + code.join("\n"), positions, ...opened });
+      this.section = "";
+    } else this.section = next;
+    this.code.push("");
+  }
+
+  private begin(rest: string, place: TextPlace): void {
+    if (this.section !== "") throw new TextError(place, "/END", "A program begins inside another.");
+    const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
+    if (found === undefined) throw new TextError(place, "the name of the program", "The program has no name.");
+    this.name = found;
+    this.isGerman = false;
+    this.inRegisters = false;
+    this.registers.close();
+    this.comment = "";
+    this.code = [];
+    this.positions = new Map();
+    this.from = place.line - 1;
+    this.opened = place;
+  }
+
+  private position(line: string, place: TextPlace): void {
+    if (line.trim() === "") return;
+    this.record ??= RecordReader.begin(line, place);
+    if (!this.record.take(line, place)) return;
+    this.positions.set(this.record.number, this.record.done());
+    this.record = undefined;
+  }
+
+  private attribute(line: string): void {
+    this.isGerman ||= isGermanHead(line);
+    const found = /^\s*(?:COMMENT|KOMMENTAR)\s*=\s*"([^"]*)"/i.exec(line)?.[1];
+    if (found !== undefined) this.comment = found.trim();
+  }
+
+  private outside(line: string, place: TextPlace): void {
+    if (VARIABLE_HEAD.test(line)) {
+      this.registers.head(line);
+      this.inRegisters = true;
+    } else if (this.inRegisters) this.registers.take(line);
+    else if (line.trim() !== "") throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
+  }
+
+  end(line: number): { readonly programs: readonly ListedProgram[]; readonly registers: RegisterValues } {
+    const { section, programs, registers } = this;
+    if (section !== "") throw new TextError({ line, column: 1 }, "/END", `The program ${this.name} has no end.`);
+    if (programs.length === 0) throw new TextError({ line, column: 1 }, "/PROG", "The text holds no program.");
+    registers.close();
+    return { programs, registers: registers.registers };
+  }
 }
 
 /** The line below the statements of a point's logic, which are numbered on their own. */

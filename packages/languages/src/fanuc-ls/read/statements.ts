@@ -1,84 +1,11 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError, textFault } from "../../parser/index.ts";
-import {
-  BINDS_AS_BASIC,
-  RecoveringReader,
-  readExpression,
-  type Argument,
-  type Block,
-  type Expression,
-  type ExpressionRules,
-  type Lexicon,
-  type Statement,
-} from "../../parser/structured/index.ts";
-import type { Action, Motion, Point } from "./actions.ts";
-import { MESSAGE, REMARK } from "./listing.ts";
+import { TextError } from "../../parser/index.ts";
+import type { Argument, Block, Expression, Statement } from "../../parser/structured/index.ts";
+import type { Action } from "./actions.ts";
+import { MotionReader } from "./motion-lines.ts";
 
-const LEXICON: Lexicon = {
-  comment: REMARK,
-  quotes: MESSAGE,
-  doubled: false,
-  lineEnds: true,
-  // A system variable with its parts is one word: $MCR.$GENOVERRIDE, $PARAM_GROUP[2].$LOWERLIMS[1].
-  word: /\$[A-Za-z_]\w*(?:\[[^\]\r\n]{0,40}\])?(?:\.\$?[A-Za-z_]\w*(?:\[[^\]\r\n]{0,40}\])?)*/y,
-  signs: [
-    "<>",
-    "<=",
-    ">=",
-    "(",
-    ")",
-    "[",
-    "]",
-    ",",
-    "=",
-    "<",
-    ">",
-    "+",
-    "-",
-    "*",
-    "/",
-    "%",
-    "!",
-    "$",
-    ".",
-    ":",
-    "'",
-    "#",
-  ],
-};
-const RESERVED: ReadonlySet<string> = new Set([
-  "then",
-  "else",
-  "endif",
-  "endfor",
-  "to",
-  "downto",
-  "timeout",
-  "jmp",
-  "call",
-  "if",
-  "for",
-  "wait",
-  "lbl",
-  "end",
-  "and",
-  "or",
-  "div",
-  "mod",
-]);
-const RULES: ExpressionRules = {
-  binary: BINDS_AS_BASIC,
-  prefix: { "!": 7, "-": 7, "+": 7 },
-  constants: { on: true, off: false },
-  tags: [],
-  index: "[",
-  components: false,
-  reserved: RESERVED,
-  args: cursor => {
-    throw cursor.unexpected("an operator");
-  },
-};
 const LINES = new Set(["do", "ro", "ao", "uo", "so", "go", "di", "ri", "ai", "gi", "f", "m"]);
+
 /** Functions of one register or value, written with square brackets. */
 export const FUNCTIONS: ReadonlySet<string> = new Set([
   "sin",
@@ -94,6 +21,7 @@ export const FUNCTIONS: ReadonlySet<string> = new Set([
   "ln",
   "exp",
 ]);
+
 /** Statements of which nothing shows in the motion. */
 const SILENT = new Set([
   "timer",
@@ -115,6 +43,7 @@ const SILENT = new Set([
   "joint_max_speed",
   "linear_max_speed",
 ]);
+
 /** Statements that are kept and named: what they do does not move the robot, or is no matter of a plan. */
 const SHOWN: Readonly<Record<string, string>> = {
   softfloat: "the arm gives way to a push",
@@ -151,22 +80,7 @@ export interface Reading {
 
 export const readStatements = (code: string): Reading => new StatementReader(code).read();
 
-class StatementReader extends RecoveringReader {
-  private readonly actions = new Map<Statement, Action>();
-  private readonly kept: TextFault[] = [];
-  /** The line of the statement has been left already. */
-  private isOver = false;
-  /** What is done at the end of the motion that was read last. */
-  private behind: Statement | undefined;
-
-  constructor(code: string) {
-    super(code, LEXICON);
-  }
-
-  protected override folded(word: string): string {
-    return word.toLowerCase();
-  }
-
+export class StatementReader extends MotionReader {
   read(): Reading {
     const { cursor } = this;
     this.guard(() => {
@@ -204,52 +118,7 @@ class StatementReader extends RecoveringReader {
     });
   }
 
-  private act(action: Action, at: TextPlace): Statement {
-    const statement: Statement = { kind: "do", name: "", args: [], ...at };
-    this.actions.set(statement, action);
-    return statement;
-  }
-
-  private value(): Expression {
-    return readExpression(this.cursor, RULES);
-  }
-
-  /** An argument of a call: a value, or a text, which no motion reads. */
-  private argument(): Expression {
-    const { cursor } = this;
-    const at = cursor.here;
-    if (cursor.isAt("text")) {
-      cursor.advance();
-      return { kind: "number", value: 0, ...at };
-    }
-    return this.value();
-  }
-  private indexed(): Expression {
-    const { cursor } = this;
-    cursor.expect("[");
-    const value = this.value();
-    cursor.expect("]");
-    return value;
-  }
-  private label(): number {
-    const { cursor } = this;
-    cursor.expect("lbl");
-    const at = cursor.here;
-    const number = this.indexed();
-    if (number.kind !== "number")
-      throw new TextError(at, "the number of a label", "Labels that are worked out are not executed here.");
-    return number.value;
-  }
-  private jump(at: TextPlace): Statement {
-    this.cursor.expect("lbl");
-    const number = this.indexed();
-    return this.act(
-      number.kind === "number" ? { kind: "jump", label: number.value } : { kind: "jump-to", label: number },
-      at,
-    );
-  }
-
-  private statement(): Statement {
+  protected statement(): Statement {
     const { cursor } = this;
     const at = cursor.here;
     const word = cursor.next;
@@ -270,6 +139,15 @@ class StatementReader extends RecoveringReader {
         return this.assignment(word, at);
       case "ar":
         throw new TextError(at, "a statement of the motion program", "AR[] cannot be given a value.");
+      default:
+        return this.named(at, word);
+    }
+  }
+
+  /** Frames, tools and conditions. */
+  private named(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "sr":
         return this.shown(at, "a text register is given a text");
       case "arc":
@@ -300,6 +178,15 @@ class StatementReader extends RecoveringReader {
         cursor.expect("pr");
         return this.act({ kind: "tool-offset-condition", register: this.indexed() }, at);
       }
+      default:
+        return this.flow(at, word);
+    }
+  }
+
+  /** What decides, repeats, jumps and ends. */
+  private flow(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    switch (word) {
       case "if":
         return this.decision(at);
       case "select":
@@ -340,19 +227,6 @@ class StatementReader extends RecoveringReader {
     }
   }
 
-  /** Keeps a statement of which the robot's motion knows nothing. */
-  private shown(at: TextPlace, what: string): Statement {
-    const { cursor } = this;
-    while (!cursor.isAt("line-end") && !cursor.done) cursor.advance();
-    this.kept.push(textFault(at, "a statement that is executed", `Line ${at.line} is shown, not executed: ${what}.`));
-    return this.act({ kind: "nothing" }, at);
-  }
-
-  /** Where the right side of an assignment begins: names of registers are told by their places. */
-  private spelling(): string {
-    return `${this.cursor.here.line}`;
-  }
-
   private set(word: string, at: TextPlace): Statement {
     const { cursor } = this;
     cursor.advance();
@@ -388,16 +262,6 @@ class StatementReader extends RecoveringReader {
     cursor.expect("]");
     cursor.expect("=");
     return this.act({ kind: "move-register", number, value: this.value() }, at);
-  }
-
-  /** Whether GP2: or the like stands before the number of a register: it is the further axes'. */
-  private otherGroup(): boolean {
-    const { cursor } = this;
-    const group = /^gp([0-9])$/.exec(cursor.next)?.[1];
-    if (group === undefined) return false;
-    cursor.advance();
-    cursor.expect(":");
-    return group !== "1";
   }
 
   private assignment(word: "r" | "pr", at: TextPlace): Statement {
@@ -544,6 +408,7 @@ class StatementReader extends RecoveringReader {
       cursor.next !== "!"
     );
   }
+
   private passArgument(): void {
     const { cursor } = this;
     for (let depth = 0; !cursor.isAt("line-end") && !cursor.done; cursor.advance()) {
@@ -551,204 +416,5 @@ class StatementReader extends RecoveringReader {
       if (depth === 0 && (cursor.next === "," || cursor.next === ")")) return;
       if (cursor.next === ")") depth--;
     }
-  }
-
-  // --- motions ----------------------------------------------------------------------------------------------------
-
-  private point(): Point {
-    const { cursor } = this;
-    const register = cursor.next;
-    if (register !== "p" && register !== "pr") throw cursor.unexpected("P[n] or PR[n]");
-    cursor.advance();
-    return { register, number: this.indexed() };
-  }
-
-  private motion(word: "j" | "l" | "c"): Motion {
-    const { cursor } = this;
-    const path = word.toUpperCase() as "J" | "L" | "C";
-    const first = this.point();
-    let via: Point | undefined;
-    let goal = first;
-    let offset: Motion["offset"];
-    let toolOffset: Motion["toolOffset"];
-    let coordinated = false;
-    if (word === "c") {
-      via = first;
-      // A point on the way may be shifted as its end is.
-      if (cursor.accept("offset")) this.offset();
-      while (cursor.isAt("line-end")) cursor.advance();
-      // The second line may begin with a colon that has no number before it.
-      cursor.accept(":");
-      goal = this.point();
-    }
-    const held = cursor.next;
-    const isHeld = held === "max_speed" || held === "weld_speed";
-    const speed = isHeld ? undefined : this.value();
-    if (isHeld) cursor.advance();
-    const unit = isHeld ? held : this.unit(path);
-    let cnt: Expression | undefined;
-    let acceleration: Expression | undefined;
-    let skip: number | undefined;
-    let jumpsWhenMet = false;
-    let incremental = false;
-    const at = cursor.here;
-    const term = cursor.next;
-    if (!cursor.accept("fine")) {
-      cnt = this.suffixed("cnt") ?? this.corner();
-      if (cnt === undefined)
-        throw new TextError(at, "FINE or CNT", `"${term.toUpperCase()}" says not how the point is reached.`);
-    }
-    while (!cursor.isAt("line-end") && !cursor.done) {
-      const found = this.suffixed("acc");
-      if (found !== undefined) {
-        acceleration = found;
-        continue;
-      }
-      if (cursor.accept("offset")) {
-        offset = this.offset();
-        continue;
-      }
-      if (cursor.accept("tool_offset")) {
-        toolOffset = this.offset();
-        continue;
-      }
-      if (cursor.accept("coord")) {
-        coordinated = true;
-        continue;
-      }
-      if (cursor.next === "skip" || cursor.next === "skipjump") {
-        jumpsWhenMet = cursor.take() === "skipjump";
-        cursor.expect(",");
-        skip = this.label();
-        continue;
-      }
-      if (cursor.next === "tb" || cursor.next === "ta" || cursor.next === "db") {
-        this.atPoint(at);
-        break;
-      }
-      if (cursor.accept("inc")) {
-        incremental = true;
-        continue;
-      }
-      if (this.passes()) continue;
-      if (
-        cursor.accept("pth") ||
-        cursor.accept("wjnt") ||
-        cursor.accept("rtcp") ||
-        cursor.accept("break") ||
-        cursor.accept(",")
-      )
-        continue;
-      throw cursor.unexpected("an option of the motion that is executed here");
-    }
-    return {
-      kind: "motion",
-      path,
-      goal,
-      speed,
-      unit,
-      ...(via === undefined ? {} : { via }),
-      ...(cnt === undefined ? {} : { cnt }),
-      ...(acceleration === undefined ? {} : { acceleration }),
-      ...(offset === undefined ? {} : { offset }),
-      ...(toolOffset === undefined ? {} : { toolOffset }),
-      coordinated,
-      ...(skip === undefined ? {} : { skip }),
-      ...(jumpsWhenMet ? { jumpsWhenMet } : {}),
-      ...(incremental ? { incremental } : {}),
-    };
-  }
-
-  /**
-   * TB, TA or DB: what is done at the point, so long or so far before it or after. It is executed when the point is
-   * reached, and said where that is not the same.
-   */
-  private atPoint(at: TextPlace): void {
-    const { cursor } = this;
-    const word = cursor.take();
-    const many = this.value();
-    const unit = cursor.isAt("word") ? cursor.take() : "";
-    cursor.accept(",");
-    if (many.kind !== "number" || many.value !== 0)
-      this.kept.push(
-        textFault(
-          at,
-          "an action at the point itself",
-          `${word.toUpperCase()}${many.kind === "number" ? ` ${many.value}${unit}` : ""}: what is done about the point is done when it is reached.`,
-        ),
-      );
-    // P-SPS: the statements below, up to the line of dashes.
-    if (cursor.next === "p" && cursor.second === "-") {
-      while (!cursor.isAt("line-end") && !cursor.done) cursor.advance();
-      return;
-    }
-    if (cursor.accept("point_logic")) return;
-    this.behind = this.statement();
-  }
-
-  /** Options of which the tool's path and place know nothing. */
-  private passes(): boolean {
-    const { cursor } = this;
-    const word = cursor.next;
-    if (/^(?:ev|ind\.ev|fd|sv)[0-9]*$/.test(word) || word === "increase" || word === "process_speed") {
-      cursor.advance();
-      if (cursor.accept("r")) this.indexed();
-      else if (cursor.isAt("number")) cursor.advance();
-      cursor.accept("%");
-      return true;
-    }
-    return false;
-  }
-
-  /** CR10, a corner by its radius in mm, is read as CNT: the share of the slowing down that is passed is not known. */
-  private corner(): Expression | undefined {
-    const at = this.cursor.here;
-    const radius = this.suffixed("cr") ?? this.suffixed("cd");
-    if (radius === undefined) return undefined;
-    throw new TextError(at, "FINE or CNT", "Corners by radius (CR, CD) are not executed here.");
-  }
-
-  private offset(): { readonly register: Expression | undefined } {
-    const { cursor } = this;
-    if (!cursor.accept(",")) return { register: undefined };
-    cursor.expect("pr");
-    return { register: this.indexed() };
-  }
-
-  /** CNT50, or CNT R[1]. */
-  private suffixed(word: string): Expression | undefined {
-    const { cursor } = this;
-    const { line, column } = cursor.here;
-    const { next } = cursor;
-    if (!next.startsWith(word)) return undefined;
-    if (next === word) {
-      cursor.advance();
-      return this.value();
-    }
-    const digits = next.slice(word.length);
-    if (!/^[0-9]{1,3}$/.test(digits)) return undefined;
-    cursor.advance();
-    return { kind: "number", value: Number(digits), line, column };
-  }
-
-  private unit(path: Motion["path"]): Motion["unit"] {
-    const { cursor } = this;
-    if (path === "J" && cursor.accept("%")) return "%";
-    if (cursor.accept("sec")) return "sec";
-    if (cursor.accept("msec")) return "msec";
-    const word = cursor.next;
-    if (path !== "J" && (word === "mm" || word === "cm" || word === "inch")) {
-      cursor.advance();
-      cursor.expect("/");
-      cursor.expect(word === "mm" ? "sec" : "min");
-      return word === "mm" ? "mm/sec" : word === "cm" ? "cm/min" : "inch/min";
-    }
-    if (path !== "J" && word === "deg") {
-      cursor.advance();
-      cursor.expect("/");
-      cursor.expect("sec");
-      return "deg/sec";
-    }
-    throw cursor.unexpected(path === "J" ? "% or sec" : "mm/sec, cm/min, inch/min or sec");
   }
 }

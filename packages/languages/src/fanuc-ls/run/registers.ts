@@ -80,57 +80,10 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       case "number":
       case "truth":
         return expression.value;
-      case "variable": {
-        if (expression.name === "jpos") return { joints_deg: this.arm.isLost ? UNKNOWN : this.arm.shown() };
-        if (expression.name === "lpos" && this.arm.isLost) return UNKNOWN;
-        if (expression.name === "lpos")
-          return [
-            ...toSix(
-              times(
-                times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
-                this.setups.now("utool", expression).matrix,
-              ),
-            ),
-          ];
-        return this.register(expression.name, expression);
-      }
-      case "index": {
-        const { of, indices } = expression;
-        const word = of.kind === "variable" ? of.name : "";
-        const [first, second] = indices.map(index => this.numberOf(index));
-        if (isLineWord(word)) return this.lines.read(this.lines.line(word, first!, expression));
-        if (word === "ar") {
-          const argument = this.given.at(-1)?.[first! - 1];
-          if (argument === undefined && this.notices !== undefined)
-            return this.unknown(expression, `The program is called without an argument ${first}: it is taken as 0.`);
-          if (argument === undefined)
-            throw new TextError(
-              expression,
-              "an argument of the call",
-              `The program is called without an argument ${first}.`,
-            );
-          return argument;
-        }
-        if (FUNCTIONS.has(word)) return applied(word, first!, expression);
-        if (word === "p") return this.taught(first!, expression);
-        if (word === "uframe" || word === "utool")
-          return toSix(this.setups.of(word, this.indexOf(first!, word), expression).matrix);
-        if (word === "timer" && this.notices !== undefined)
-          return this.unknown(expression, `TIMER[${first}] is the controller's: it is taken as 0.`);
-        if (word !== "r" && word !== "pr")
-          throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
-        const value = this.register(`${word}${first}`, expression);
-        if (second === undefined) return value;
-        const part = (isSix(value) ? value : isJoints(value) ? value.joints_deg : [])[second - 1];
-        if (part === undefined)
-          throw new TextError(expression, "PR[n,1] … PR[n,6]", `PR[${first}] has no element ${second}.`);
-        if (Number.isNaN(part))
-          return this.unknown(
-            expression,
-            `${this.spelt(`pr${first}`)},${second} is in none of the files: it is taken as 0.`,
-          );
-        return part;
-      }
+      case "variable":
+        return this.namedValue(expression);
+      case "index":
+        return this.elementOf(expression);
       case "unary":
         return expression.sign === "!" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
       case "binary":
@@ -138,6 +91,71 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       default:
         throw new TextError(expression, "a value of TP", "This is no value of TP.");
     }
+  }
+
+  /** Where the robot is, or a register. */
+  private namedValue(expression: Extract<Expression, { kind: "variable" }>): Value {
+    if (expression.name === "jpos") return { joints_deg: this.arm.isLost ? UNKNOWN : this.arm.shown() };
+    if (expression.name === "lpos" && this.arm.isLost) return UNKNOWN;
+    if (expression.name === "lpos")
+      return [
+        ...toSix(
+          times(
+            times(inverted(this.setups.now("uframe", expression).matrix), this.arm.flange),
+            this.setups.now("utool", expression).matrix,
+          ),
+        ),
+      ];
+    return this.register(expression.name, expression);
+  }
+
+  /** A register, a line or a function with its number. */
+  private elementOf(expression: Extract<Expression, { kind: "index" }>): Value {
+    const { of, indices } = expression;
+    const word = of.kind === "variable" ? of.name : "";
+    const [first, second] = indices.map(index => this.numberOf(index));
+    if (isLineWord(word)) return this.lines.read(this.lines.line(word, first!, expression));
+    if (word === "ar") {
+      const argument = this.given.at(-1)?.[first! - 1];
+      if (argument === undefined && this.notices !== undefined)
+        return this.unknown(expression, `The program is called without an argument ${first}: it is taken as 0.`);
+      if (argument === undefined)
+        throw new TextError(
+          expression,
+          "an argument of the call",
+          `The program is called without an argument ${first}.`,
+        );
+      return argument;
+    }
+    if (FUNCTIONS.has(word)) return applied(word, first!, expression);
+    if (word === "p") return this.taught(first!, expression);
+    if (word === "uframe" || word === "utool")
+      return toSix(this.setups.of(word, this.indexOf(first!, word), expression).matrix);
+    if (word === "timer" && this.notices !== undefined)
+      return this.unknown(expression, `TIMER[${first}] is the controller's: it is taken as 0.`);
+    if (word !== "r" && word !== "pr")
+      throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
+    return this.registerValue(expression, word, second, first);
+  }
+
+  /** A register, or an element of it. */
+  private registerValue(
+    expression: Extract<Expression, { kind: "index" }>,
+    word: string,
+    second: number | undefined,
+    first: number | undefined,
+  ): Value {
+    const value = this.register(`${word}${first}`, expression);
+    if (second === undefined) return value;
+    const part = (isSix(value) ? value : isJoints(value) ? value.joints_deg : [])[second - 1];
+    if (part === undefined)
+      throw new TextError(expression, "PR[n,1] … PR[n,6]", `PR[${first}] has no element ${second}.`);
+    if (Number.isNaN(part))
+      return this.unknown(
+        expression,
+        `${this.spelt(`pr${first}`)},${second} is in none of the files: it is taken as 0.`,
+      );
+    return part;
   }
 
   /** A value that only the controller knows: 0, which is said. */
@@ -225,6 +243,11 @@ export abstract class RegisterMachine extends BlockMachine<Value> {
       this.globals.set(name, word === "r" && typeof value === "boolean" ? Number(value) : value);
       return;
     }
+    return this.storeElement(to, value, element, number, name);
+  }
+
+  /** An element of a position register. */
+  private storeElement(to: Expression, value: Value, element: number, number: number | undefined, name: string): void {
     const before = this.globals.get(name) ?? (this.notices === undefined ? [0, 0, 0, 0, 0, 0] : UNKNOWN);
     if (isJoints(before) && Number.isInteger(element) && element >= 1 && element <= 6) {
       this.globals.set(name, { joints_deg: before.joints_deg.with(element - 1, asNumber(value, to)) });

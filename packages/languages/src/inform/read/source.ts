@@ -119,6 +119,14 @@ class SourceReader extends LineReader {
       case "///TOOL":
         if (this.section !== "user") this.tool = this.numbers(rest, at)[0]!;
         return;
+      default:
+        return this.detail(word, rest, at);
+    }
+  }
+
+  /** What positions, tools and user frames are. */
+  private detail(word: string, rest: string, at: TextPlace): void {
+    switch (word) {
       case "///POSTYPE": {
         const type = rest.trim().toUpperCase();
         if (!TYPES.has(type))

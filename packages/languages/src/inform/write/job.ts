@@ -28,6 +28,8 @@ import { accelerationText, cornerText, speedText } from "./speed.ts";
 /** Jobs carry a date; one that does not depend on when they were written. */
 const DATE = "2000/01/01 00:00";
 
+const WORDS: Readonly<Record<MoveStep["path"], string>> = { ptp: "MOVJ", lin: "MOVL", circ: "MOVC", spline: "MOVS" };
+
 export interface JobSetting {
   readonly place: WalkedPlace;
   readonly controller: Controller;
@@ -257,39 +259,44 @@ export class JobWriter {
     };
     const { q_rad, via_rad } = configurations.get(step.id)!;
     const { target, frame, loop } = this.taught(step.target);
-    // Joint angles are reached with any tool; the one in force stays.
-    const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+    const tool = this.toolOf(step);
     this.shiftFor(loop, step.id);
     const speed = speedText(step, place.robot.maxTcpSpeed_mps);
     const acceleration = accelerationText(step);
     const cornerBegin_m =
       step.until === undefined && goesOn(place, next, this.isMain) ? corner_m(place, step, before, next) : 0;
     const corner = cornerText(step.path, cornerBegin_m);
-    if (
-      step.path === "circ" ||
-      (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))
-    ) {
-      const word = step.path === "circ" ? "MOVC" : "MOVS";
-      if (this.arrival !== undefined)
-        add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
-      else {
-        // Reached from several sides: the robot is asked where it stands.
-        this.here ??= this.setting.controller.variable("P");
-        add(`GETS PX${this.here.slice(1)} $PX000`);
-        add(`${word} ${this.here} ${speed} PL=0`);
-      }
-    }
+    const isOnCurve = before?.type === "move" && before.path === "spline" && this.arrival !== undefined;
+    if (step.path === "circ" || (step.path === "spline" && !isOnCurve)) this.beginCurve(step, frame, tool, speed);
     if (step.path === "circ") {
       const via = this.taught(step.via!);
       add(`MOVC ${this.points.add(step, via.target, frame, tool, via_rad ?? q_rad).name} ${speed}`);
     }
     const { name, arrival } = this.points.add(step, target, frame, tool, q_rad);
-    const word = step.path === "ptp" ? "MOVJ" : step.path === "lin" ? "MOVL" : step.path === "circ" ? "MOVC" : "MOVS";
-    add(
-      `${word} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`,
-    );
+    const end = step.path === "circ" ? " FPT" : "";
+    add(`${WORDS[step.path]} ${name} ${speed}${corner}${acceleration}${end}${this.until(step)}`);
     if (step.until?.missing === "fault") add(`ABORT IF ${this.condition(step.until.when, true)}`);
     this.arrival = loop === undefined && step.until === undefined ? arrival : undefined;
+  }
+
+  /** Joint angles are reached with any tool; the one in force stays. */
+  private toolOf({ path, target }: MoveStep): string {
+    return target.tool ?? (path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+  }
+
+  private until({ until }: MoveStep): string {
+    return until === undefined ? "" : ` UNTIL ${this.condition(until.when)}`;
+  }
+
+  /** Arcs and curves begin with the point that the robot stands at. */
+  private beginCurve(step: MoveStep, frame: string, tool: string, speed: string): void {
+    const word = WORDS[step.path];
+    if (this.arrival !== undefined)
+      return this.out.add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`, step.id);
+    // Reached from several sides: the robot is asked where it stands.
+    this.here ??= this.setting.controller.variable("P");
+    this.out.add(`GETS PX${this.here.slice(1)} $PX000`, step.id);
+    this.out.add(`${word} ${this.here} ${speed} PL=0`, step.id);
   }
 
   /** A target as it is taught: at the first place, when it is on a pallet. */

@@ -57,6 +57,14 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
         return this.readWhile(cursor, at);
       case "SWITCH":
         return this.readSwitch(cursor, at);
+      default:
+        return this.branchOrEnd(cursor, at);
+    }
+  }
+
+  /** What goes on with a block, ends or leaves it. */
+  private branchOrEnd(cursor: Cursor, at: TextPlace): void {
+    switch (cursor.second === "=" ? "" : cursor.next) {
       case "CASE":
         return this.readCase(cursor, SWITCH, false);
       case "DEFAULT":

@@ -103,6 +103,11 @@ class SourceReader extends LineReader {
       this.signals.push(readSignal(cursor));
       return;
     }
+    return this.content(cursor);
+  }
+
+  /** A line of a data list or of a routine. */
+  private content(cursor: Cursor): void {
     const declared = readDeclarations(cursor);
     if (declared !== undefined)
       (this.section === "data" ? this.current!.data : this.builder!.declarations).push(

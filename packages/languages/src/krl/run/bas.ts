@@ -29,6 +29,25 @@ export function BAS(args: readonly (Expression | undefined)[], system: System, m
       return system.choose("TOOL", given(), second!);
     case "#BASE":
       return system.choose("BASE", given(), second!);
+    default:
+      return inForceBy(args, system, memory, at, command);
+  }
+}
+
+/** What inline forms have put in force. */
+function inForceBy(
+  args: readonly (Expression | undefined)[],
+  system: System,
+  memory: Memory,
+  at: TextPlace,
+  command: { readonly value: string },
+): void {
+  const [first, second] = args;
+  const given = (): number => {
+    if (second === undefined) throw new TextError(at, "a second argument", `BAS(${command.value}, …) takes a number.`);
+    return numberOf(second, memory);
+  };
+  switch (command.value) {
     case "#PTP_PARAMS":
     case "#PTP_DAT": {
       const data = inForce("PDAT_ACT", memory, at);

@@ -164,6 +164,23 @@ export class ModuleWriter {
         return add(`;* ${commentText(step.text)}`);
       case "assign":
         return add(`${this.words.variable(step.variable)}=${expressionText(step.to, this.words, this.program, step)}`);
+      default:
+        return this.flow(step, next);
+    }
+  }
+
+  /** What calls, repeats and decides. */
+  private flow(
+    step: Exclude<
+      Step,
+      { type: "move" | "wait" | "gripper" | "set" | "wait-for" | "payload" | "message" | "stop" | "comment" | "assign" }
+    >,
+    next: Step | undefined,
+  ): void {
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    switch (step.type) {
       case "call":
         add(`${this.routineNames.get(step.routine)!}( )`);
         return this.settings.forget();

@@ -100,6 +100,15 @@ export class MelfaMachine extends BasicMachine<Said> {
         return this.placed(rigid([x, y, z, a / DEG, b / DEG, c / DEG]));
       case "setjnt":
         return { kind: "joints", deg: Array.from({ length: JOINTS }, (_, i) => (numbers[i] ?? 0) / DEG) };
+      default:
+        return this.converted(call, y, x);
+    }
+  }
+
+  /** Places of joint angles, the other way back, and what is computed of numbers. */
+  private converted(call: Extract<Expression, { kind: "call" }>, y: number, x: number): Value {
+    const { name, args } = call;
+    switch (name) {
       case "jtop": {
         const of = args[0]?.value;
         const joints = of === undefined ? undefined : this.evaluate(of);
@@ -217,6 +226,16 @@ export class MelfaMachine extends BasicMachine<Said> {
         return [];
       case "dly":
         return [{ id: id(), type: "wait", s: between(first, 0, Number.MAX_VALUE, "a time", statement) }];
+      default:
+        return this.action(statement);
+    }
+  }
+
+  /** Grippers, lines, tools and motions. */
+  private action(statement: Do): readonly Step[] {
+    const { name, args } = statement;
+    const id = (): string => this.stepId(statement);
+    switch (name) {
       case "hopen":
       case "hclose":
         return [{ id: id(), type: "gripper", closed: name === "hclose" }];

@@ -12,6 +12,7 @@ import {
   type VendorSection,
   jointsOfAxes,
   wristAboveZero,
+  type Speed,
 } from "@twincell/core";
 import { asciiText } from "../../parser/index.ts";
 import {
@@ -215,6 +216,17 @@ export class MelfaProgram extends BasicProgram {
     );
   }
 
+  private pace(speed: Exclude<Speed, { readonly time_s: number }>, isJoint: boolean, add: Add): void {
+    const most_mps = this.place.robot.maxTcpSpeed_mps;
+    if (isJoint)
+      this.say(
+        "speed",
+        `JOvrd ${fixed(Math.min(100, ("mps" in speed ? speed.mps / most_mps : speed.ratio) * 100), 5)}`,
+        add,
+      );
+    else this.say("path speed", `Spd ${fixed(("mps" in speed ? speed.mps : speed.ratio * most_mps) * 1000, 4)}`, add);
+  }
+
   protected move(step: MoveStep, next: Step | undefined, add: Add): void {
     const { target, speed, path } = step;
     const isJoint = path === "ptp";
@@ -225,14 +237,7 @@ export class MelfaProgram extends BasicProgram {
     const percent = fixed((step.acceleration?.ratio ?? 1) * 100, 4);
     this.say("acceleration", `Accel ${percent}, ${percent}`, add);
     if ("time_s" in speed) return;
-    const most_mps = this.place.robot.maxTcpSpeed_mps;
-    if (isJoint)
-      this.say(
-        "speed",
-        `JOvrd ${fixed(Math.min(100, ("mps" in speed ? speed.mps / most_mps : speed.ratio) * 100), 5)}`,
-        add,
-      );
-    else this.say("path speed", `Spd ${fixed(("mps" in speed ? speed.mps : speed.ratio * most_mps) * 1000, 4)}`, add);
+    this.pace(speed, isJoint, add);
     const blend = mmText(this.place.blend_m(step, this.before, next));
     const flag = this.flagOf(this.place.posture(step, target, this.near));
     // The hand stands before another tool is taken: what is said of places counts for the one in use.

@@ -217,6 +217,15 @@ class PacReader extends BasicReader {
         cursor.advance();
         this.restOfLine();
         return { kind: "halt", ...at };
+      default:
+        return this.leaving(at, word);
+    }
+  }
+
+  /** What leaves a block, waits or sets a line, and subs that are called by their names. */
+  private leaving(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
       case "exit sub":
         cursor.advance();
         return { kind: "return", ...at };

@@ -108,21 +108,10 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         return expression.value;
       case "truth":
         return expression.value ? this.truth : 0;
-      case "variable": {
-        const value = this.variable(expression.name) ?? this.known(expression.name);
-        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: expression.name };
-        if (value === undefined)
-          throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
-        return value;
-      }
-      case "index": {
-        const key = this.keyOf(expression);
-        const value = this.variable(key) ?? this.digital(expression);
-        if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: key };
-        if (value === undefined)
-          throw new TextError(expression, "a variable that has a value", `"${key}" has no value yet.`);
-        return value;
-      }
+      case "variable":
+        return this.namedValue(expression);
+      case "index":
+        return this.indexedValue(expression);
       case "list":
         throw new TextError(expression, "a value", "A list of numbers stands where a value is expected.");
       case "component":
@@ -131,20 +120,43 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
         const value = this.number(this.evaluate(expression.of), expression);
         return expression.sign === "not" ? (value === 0 ? this.truth : 0) : -value;
       }
-      case "binary": {
-        const { sign, left, right } = expression;
-        const a = this.evaluate(left);
-        if (sign === "and" && a === 0) return 0;
-        const b = this.evaluate(right);
-        if (isUnknown(a) || isUnknown(b)) return this.withUnknown(expression, a, b);
-        return this.joined(sign, a, b, expression) ?? arithmetic(sign, a, b, is => (is ? this.truth : 0), expression);
-      }
+      case "binary":
+        return this.binaryValue(expression);
       case "call": {
         const routine = this.routine(expression.name);
         if (routine !== undefined) return this.answer(routine, expression.args, expression);
         return this.digital(expression) ?? this.applied(expression);
       }
     }
+  }
+
+  /** Two values that a sign joins; what decides alone is not asked further. */
+  private binaryValue(expression: Extract<Expression, { kind: "binary" }>): Value {
+    const { sign, left, right } = expression;
+    const a = this.evaluate(left);
+    if (sign === "and" && a === 0) return 0;
+    const b = this.evaluate(right);
+    if (isUnknown(a) || isUnknown(b)) return this.withUnknown(expression, a, b);
+    return this.joined(sign, a, b, expression) ?? arithmetic(sign, a, b, is => (is ? this.truth : 0), expression);
+  }
+
+  /** An element of an array, or a line by its number. */
+  private indexedValue(expression: Extract<Expression, { kind: "index" }>): Value {
+    const key = this.keyOf(expression);
+    const value = this.variable(key) ?? this.digital(expression);
+    if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: key };
+    if (value === undefined)
+      throw new TextError(expression, "a variable that has a value", `"${key}" has no value yet.`);
+    return value;
+  }
+
+  /** What a name stands for. */
+  private namedValue(expression: Extract<Expression, { kind: "variable" }>): Value {
+    const value = this.variable(expression.name) ?? this.known(expression.name);
+    if (value === undefined && this.notices !== undefined) return { kind: "unknown", name: expression.name };
+    if (value === undefined)
+      throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+    return value;
   }
 
   isTrue(expression: Expression): boolean {
@@ -424,20 +436,20 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     const configuration =
       asks && goal.posture !== undefined && Object.keys(goal.posture).length > 0 ? goal.posture : undefined;
     const branch = configuration === undefined ? undefined : arm.branchAt(place, configuration);
-    if (configuration !== undefined && branch === undefined && this.notices !== undefined)
-      this.notices.add(
-        at,
-        "a place that is reached so",
-        `Line ${at.line}: this robot does not reach the place in the posture that is asked for; the nearest is taken.`,
-      );
-    else if (configuration !== undefined && branch === undefined)
-      throw new TextError(
-        at,
-        "a place that is reached so",
-        "The place cannot be reached in the posture that is asked for.",
-      );
+    if (configuration !== undefined && branch === undefined) this.notInPosture(at);
     arm.goneTo(place);
     return { ...this.poseOf(goal), tool, ...(branch === undefined ? {} : { branch }) };
+  }
+
+  private notInPosture(at: TextPlace): void {
+    const expected = "a place that is reached so";
+    if (this.notices === undefined)
+      throw new TextError(at, expected, "The place cannot be reached in the posture that is asked for.");
+    this.notices.add(
+      at,
+      expected,
+      `Line ${at.line}: this robot does not reach the place in the posture that is asked for; the nearest is taken.`,
+    );
   }
 
   /** The middle of an arc is passed, not reached. */

@@ -79,17 +79,8 @@ export abstract class BlockMachine<V> {
     if (statement.kind === "comment" || statement.kind === "label") return "next";
     this.spend(statement);
     switch (statement.kind) {
-      case "assign": {
-        const { value } = statement;
-        const called = value.kind === "call" ? this.routine(value.name) : undefined;
-        if (called !== undefined && value.kind === "call") {
-          const flow = yield* this.call(called, value.args, value);
-          if (flow === "halt") return flow;
-          this.store(statement.to, this.result(value), statement.global);
-        } else this.store(statement.to, this.evaluate(value), statement.global);
-        yield { line: statement.line };
-        return "next";
-      }
+      case "assign":
+        return yield* this.assignment(statement);
       case "do": {
         const called = this.routine(statement.name);
         if (called !== undefined) return yield* this.call(called, statement.args, statement);
@@ -101,19 +92,22 @@ export abstract class BlockMachine<V> {
         return statement.otherwise === undefined ? "next" : yield* this.block(statement.otherwise);
       }
       case "while":
-        while (this.isTrue(statement.when)) {
-          this.spend(statement);
-          yield { line: statement.line };
-          const flow = yield* this.block(statement.body);
-          if (flow === "break") break;
-          if (flow === "return" || flow === "halt" || flow === "goto") return flow;
-        }
-        return "next";
+        return yield* this.whileLoop(statement);
       case "for":
         return yield* this.loop(statement);
       case "wait-until":
         yield* this.waitUntil(statement);
         return "next";
+      default:
+        return yield* this.leaving(statement);
+    }
+  }
+
+  /** What leaves a loop, a routine or the program. */
+  private *leaving(
+    statement: Extract<Statement, { kind: "return" | "break" | "continue" | "goto" | "halt" }>,
+  ): Generator<Executed, Flow> {
+    switch (statement.kind) {
       case "return":
         this.returned = statement.value === undefined ? undefined : this.evaluate(statement.value);
         return "return";
@@ -129,6 +123,30 @@ export abstract class BlockMachine<V> {
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
         return "halt";
     }
+  }
+
+  /** A value, or what a routine answers. */
+  private *assignment(statement: Extract<Statement, { kind: "assign" }>): Generator<Executed, Flow> {
+    const { value } = statement;
+    const called = value.kind === "call" ? this.routine(value.name) : undefined;
+    if (called !== undefined && value.kind === "call") {
+      const flow = yield* this.call(called, value.args, value);
+      if (flow === "halt") return flow;
+      this.store(statement.to, this.result(value), statement.global);
+    } else this.store(statement.to, this.evaluate(value), statement.global);
+    yield { line: statement.line };
+    return "next";
+  }
+
+  private *whileLoop(statement: Extract<Statement, { kind: "while" }>): Generator<Executed, Flow> {
+    while (this.isTrue(statement.when)) {
+      this.spend(statement);
+      yield { line: statement.line };
+      const flow = yield* this.block(statement.body);
+      if (flow === "break") break;
+      if (flow === "return" || flow === "halt" || flow === "goto") return flow;
+    }
+    return "next";
   }
 
   /** From, last and step of a counting loop. */

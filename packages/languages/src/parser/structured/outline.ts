@@ -378,10 +378,7 @@ export class Outline<V> {
       same && counts.length <= 3 && visits.every(each => each === visits[0])
         ? fitPallet(places, frame ?? "world", layers!, lines!, inLine!)
         : undefined;
-    if (
-      pallet === undefined ||
-      (Object.hasOwn(this.pallets, variable) && JSON.stringify(this.pallets[variable]) !== JSON.stringify(pallet))
-    ) {
+    if (pallet === undefined || this.isOtherPallet(variable, pallet)) {
       if (!wasPlace) machine.places.delete(variable);
       return false;
     }
@@ -393,6 +390,11 @@ export class Outline<V> {
     this.fresh(() => this.block(body, steps));
     this.add(out, { ...step, type: "pallet", pallet: variable, steps }, statement);
     return true;
+  }
+
+  private isOtherPallet(variable: string, pallet: Pallet): boolean {
+    const known = Object.hasOwn(this.pallets, variable) ? this.pallets[variable] : undefined;
+    return known !== undefined && JSON.stringify(known) !== JSON.stringify(pallet);
   }
 
   /** Executes a statement of which only the effect on variables counts. */

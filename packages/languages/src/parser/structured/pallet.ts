@@ -23,35 +23,40 @@ export function fitPallet(
       const rows = byRows ? lines : inLine;
       const columns = byRows ? inLine : lines;
       if (interleave === "odd-rows-shifted" && (!byRows || rows < 2 || columns < 2)) continue;
-      const size = { rows, columns, layers, interleave, order };
-      const at = placeOf(places, size);
-      const first = at(0, 0, 0);
-      const rowEnd = columns > 1 ? at(0, 0, columns - 1) : first;
-      const top = at(1, 0, 0);
-      if (first === undefined || rowEnd === undefined) continue;
-      const half = interleave === "odd-rows-shifted" && (rows - 1) % 2 === 1 ? 0.5 / (columns - 1) : 0;
-      const last = rows > 1 ? at(0, rows - 1, 0) : first;
-      if (last === undefined) continue;
-      const columnEnd = [0, 1, 2].map(i => last[i]! - half * (rowEnd[i]! - first[i]!));
-      const pallet: Pallet = {
-        frame,
-        origin: { position: [...first], quaternion: [...origin.quaternion] },
-        rowEnd: [...rowEnd],
-        columnEnd: [columnEnd[0]!, columnEnd[1]!, columnEnd[2]!],
-        rows,
-        columns,
-        layers,
-        layer_m: top === undefined ? 0 : top[2] - first[2],
-        ...(interleave === "none" ? {} : { interleave }),
-        ...(order === "rows" ? {} : { order }),
-      };
-      if (meets(pallet, places)) return pallet;
+      const pallet = palletOf(places, frame, origin, { rows, columns, layers, interleave, order });
+      if (pallet !== undefined && meets(pallet, places)) return pallet;
     }
   }
   return undefined;
 }
 
 type Size = Pick<Pallet, "rows" | "columns" | "layers"> & Required<Pick<Pallet, "interleave" | "order">>;
+
+/** The pallet of that size that these places would be; undefined where there are too few of them. */
+function palletOf(places: readonly Pose[], frame: string, origin: Pose, size: Size): Pallet | undefined {
+  const { rows, columns, layers, interleave, order } = size;
+  const at = placeOf(places, size);
+  const first = at(0, 0, 0);
+  const rowEnd = columns > 1 ? at(0, 0, columns - 1) : first;
+  const top = at(1, 0, 0);
+  if (first === undefined || rowEnd === undefined) return undefined;
+  const half = interleave === "odd-rows-shifted" && (rows - 1) % 2 === 1 ? 0.5 / (columns - 1) : 0;
+  const last = rows > 1 ? at(0, rows - 1, 0) : first;
+  if (last === undefined) return undefined;
+  const columnEnd = [0, 1, 2].map(i => last[i]! - half * (rowEnd[i]! - first[i]!));
+  return {
+    frame,
+    origin: { position: [...first], quaternion: [...origin.quaternion] },
+    rowEnd: [...rowEnd],
+    columnEnd: [columnEnd[0]!, columnEnd[1]!, columnEnd[2]!],
+    rows,
+    columns,
+    layers,
+    layer_m: top === undefined ? 0 : top[2] - first[2],
+    ...(interleave === "none" ? {} : { interleave }),
+    ...(order === "rows" ? {} : { order }),
+  };
+}
 
 /** Where the place of that index lies among those that were visited in this order. */
 function placeOf(

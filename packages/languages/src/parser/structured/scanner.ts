@@ -74,6 +74,36 @@ export class Scanner {
     return first !== undefined && first.line < line ? this.comments.shift() : undefined;
   }
 
+  private tooLong(line: number, column: number): never {
+    this.skipLine();
+    throw new TextError(
+      { line, column },
+      `a line of at most ${LINE_LENGTH} characters`,
+      `Line ${line} has more than ${LINE_LENGTH} characters.`,
+    );
+  }
+
+  private number(from: number): void {
+    NUMBER.lastIndex = from;
+    const number = NUMBER.exec(this.text)![0];
+    this.at += number.length;
+    this.found("number", number);
+  }
+
+  private word(from: number): void {
+    const { text } = this;
+    while (this.at < text.length && isWordCode(text.charCodeAt(this.at))) this.at++;
+    this.found("word", text.slice(from, this.at));
+  }
+
+  /** A word as this language alone spells it. */
+  private wordOfLexicon(from: number): string | undefined {
+    const { word } = this.lexicon;
+    if (word === undefined) return undefined;
+    word.lastIndex = from;
+    return word.exec(this.text)?.[0];
+  }
+
   /** @throws {TextError} at a character that has no meaning in the language; the character is then behind. */
   next(): void {
     const { text, lexicon } = this;
@@ -88,32 +118,14 @@ export class Scanner {
       if (from >= length) return this.found("end", "");
       const code = text.charCodeAt(from);
       const sort = code < 128 ? SORTS[code]! : 0;
-      if (column > LINE_LENGTH && sort !== LINE_END) {
-        this.skipLine();
-        throw new TextError(
-          { line, column },
-          `a line of at most ${LINE_LENGTH} characters`,
-          `Line ${line} has more than ${LINE_LENGTH} characters.`,
-        );
+      if (column > LINE_LENGTH && sort !== LINE_END) this.tooLong(line, column);
+      const word = sort === DIGIT || sort === LINE_END ? undefined : this.wordOfLexicon(from);
+      if (word !== undefined) {
+        this.at += word.length;
+        return this.found("word", word);
       }
-      if (lexicon.word !== undefined && sort !== DIGIT && sort !== LINE_END) {
-        lexicon.word.lastIndex = from;
-        const word = lexicon.word.exec(text)?.[0];
-        if (word !== undefined) {
-          this.at += word.length;
-          return this.found("word", word);
-        }
-      }
-      if (sort === LETTER) {
-        while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
-        return this.found("word", text.slice(from, this.at));
-      }
-      if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) {
-        NUMBER.lastIndex = from;
-        const number = NUMBER.exec(text)![0];
-        this.at += number.length;
-        return this.found("number", number);
-      }
+      if (sort === LETTER) return this.word(from);
+      if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) return this.number(from);
       if (sort === LINE_END) {
         this.newLine(text[from]!);
         if (lexicon.lineEnds && this.depth === 0) return this.found("line-end", "");

@@ -87,6 +87,11 @@ export class Lines {
       const signal = this.lineOf(expression);
       return signal === undefined ? undefined : { signal, is: true };
     }
+    return this.comparison(expression, evaluate);
+  }
+
+  /** A line that is compared with a number. */
+  private comparison(expression: Expression, evaluate: (of: Expression) => Value): Condition | undefined {
     if (expression.kind !== "binary" || !["=", "<>", "<", ">"].includes(expression.sign)) return undefined;
     const { sign, left, right } = expression;
     // A bare name is a line when it is nothing else and is compared with a number.

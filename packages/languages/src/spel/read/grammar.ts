@@ -286,6 +286,12 @@ class SpelReader extends BasicReader {
       cursor.advance();
       return given(word === "tlset" || word === "local" ? this.numberAndPoint() : this.values());
     }
+    return this.byWord(at, word);
+  }
+
+  /** Instructions that are read each in its own way. */
+  private byWord(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
     switch (word) {
       case "p":
         return this.assigned(at);
@@ -307,6 +313,13 @@ class SpelReader extends BasicReader {
       default:
         break;
     }
+    return this.byFunctionName(at, word);
+  }
+
+  /** Functions that are called by their names. */
+  private byFunctionName(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    const given = (args: readonly Argument[]): Statement => ({ kind: "do", name: word, args, ...at });
     const { second } = cursor;
     // An element of an array takes a value.
     if (this.asText && second === "(" && !this.functions.has(word)) {

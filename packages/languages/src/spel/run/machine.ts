@@ -159,6 +159,16 @@ export class SpelMachine extends BasicMachine<Said> {
         );
       return { kind: "joints", deg: numbers };
     }
+    return this.shiftOrFunction(call, numbers, axis);
+  }
+
+  /** A shift along an axis, or a function. */
+  private shiftOrFunction(
+    call: Extract<Expression, { kind: "call" }>,
+    numbers: readonly number[],
+    axis: number,
+  ): Value {
+    const { name } = call;
     if (axis >= 0) {
       const by: Six = [0, 0, 0, 0, 0, 0];
       return { kind: "shift", by: by.with(axis, numbers[0] ?? 0) as unknown as Six, isOwn: name.startsWith("tl") };
@@ -198,6 +208,16 @@ export class SpelMachine extends BasicMachine<Said> {
         left.frame,
       );
     }
+    return this.inOwnAxes(sign, left, of, by);
+  }
+
+  /** A place that is shifted along its own axes. */
+  private inOwnAxes(
+    sign: string,
+    left: PlaceValue,
+    of: Extract<Expression, { kind: "binary" }>,
+    by: Six,
+  ): Value | undefined {
     const step = sign === "+" ? rigid(by) : back(rigid(by));
     const variable = of.left.kind === "variable" && this.places.has(of.left.name) ? of.left.name : undefined;
     const within =
@@ -286,6 +306,16 @@ export class SpelMachine extends BasicMachine<Said> {
       case "bgo":
       case "bmove":
         return [this.shifted(statement)];
+      default:
+        return this.motions(statement);
+    }
+  }
+
+  /** Motions, and what is kept for them. */
+  private motions(statement: Do): readonly Step[] {
+    const { name, args } = statement;
+    const given = (i: number, what: string): Expression => this.given(statement, i, what);
+    switch (name) {
       case "memon":
       case "memoff":
         this.memory.set(this.numberOf(given(0, "the number of a bit")), name === "memon");

@@ -233,6 +233,15 @@ class Reader extends RecoveringReader {
         cursor.expect("end");
         return asWait({ kind: "while", when, body, ...at });
       }
+      default:
+        return this.ending(at, word);
+    }
+  }
+
+  /** Statements that end something, and those that begin with a name. */
+  private ending(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
       case "return": {
         cursor.advance();
         return cursor.isAt("line-end") || cursor.done

@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError, textFault } from "../../parser/index.ts";
-import type { Argument, Block, Expression, Routine } from "../../parser/structured/index.ts";
+import type { Argument, Block, Expression, Routine, Statement } from "../../parser/structured/index.ts";
 import type { Source } from "./grammar.ts";
 import { SILENT } from "./silent.ts";
 
@@ -91,26 +91,27 @@ function collect(block: Block, routines: ReadonlyMap<string, Routine>, found: Us
       default:
     }
   };
+  const assigned = ({ to, value, line, column }: Extract<Statement, { kind: "assign" }>): void => {
+    read(value);
+    if (to.kind === "index") for (const index of to.indices) read(index);
+    const name = to.kind === "variable" ? to.name : to.kind === "index" && to.of.kind === "variable" ? to.of.name : "";
+    if (!found.writes.has(name)) found.writes.set(name, { line, column });
+  };
+  const doing = ({ name, args, line, column }: Extract<Statement, { kind: "do" }>): void => {
+    if (called(name, args)) return;
+    if (/_out$/.test(name)) found.outputs = true;
+    if (!HARMLESS.test(name) && !SILENT.has(name) && !name.includes(".")) found.moves ??= { name, line, column };
+    if (/^stop[jl]$/.test(name)) found.moves ??= { name, line, column };
+  };
   for (const statement of block) {
     const { line, column } = statement;
     switch (statement.kind) {
-      case "assign": {
-        read(statement.value);
-        const { to } = statement;
-        if (to.kind === "index") for (const index of to.indices) read(index);
-        const name =
-          to.kind === "variable" ? to.name : to.kind === "index" && to.of.kind === "variable" ? to.of.name : "";
-        if (!found.writes.has(name)) found.writes.set(name, { line, column });
+      case "assign":
+        assigned(statement);
         break;
-      }
-      case "do": {
-        const { name } = statement;
-        if (called(name, statement.args)) break;
-        if (/_out$/.test(name)) found.outputs = true;
-        if (!HARMLESS.test(name) && !SILENT.has(name) && !name.includes(".")) found.moves ??= { name, line, column };
-        if (/^stop[jl]$/.test(name)) found.moves ??= { name, line, column };
+      case "do":
+        doing(statement);
         break;
-      }
       case "if":
         for (const { when, body } of statement.branches) {
           read(when);

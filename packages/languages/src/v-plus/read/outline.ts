@@ -52,102 +52,132 @@ const FACTOR = "\\(?(-?[0-9.]+)\\)?";
 
 /** The structure of a text whose loops, calls and decisions are those of a neutral program; undefined for any other. */
 export function outlineOf(lines: readonly string[]): Structure | undefined {
-  const flat = lines.map(() => "");
-  const programs = new Map<string, { title: string; outline: Node[] }>();
-  const numbers = new Map<string, number>();
-  const main: Node[] = [];
-  let list = main;
-  let started = false;
-  let plain = true;
-  const open: { readonly ends: number; readonly outer: Node[]; left: number; readonly node: Node }[] = [];
-  const enter = (node: Node, inside: Node[], ends = 1): void => {
-    list.push(node);
-    open.push({ ends, outer: list, left: ends, node });
-    list = inside;
-    plain = false;
-  };
+  const reader = new OutlineReader(lines);
+  for (let i = 0; i < lines.length; ) {
+    const read = reader.line(i);
+    if (read === "other") return undefined;
+    i += read;
+  }
+  return reader.structure();
+}
 
-  for (let i = 0; i < lines.length; i++) {
-    const text = lines[i]!.trim();
+class OutlineReader {
+  private readonly lines: readonly string[];
+  private readonly flat: string[];
+  private readonly programs = new Map<string, { title: string; outline: Node[] }>();
+  private readonly numbers = new Map<string, number>();
+  private readonly main: Node[] = [];
+  private list = this.main;
+  private started = false;
+  private plain = true;
+  private readonly open: { readonly ends: number; readonly outer: Node[]; left: number; readonly node: Node }[] = [];
+
+  constructor(lines: readonly string[]) {
+    this.lines = lines;
+    this.flat = lines.map(() => "");
+  }
+
+  structure(): Structure | undefined {
+    const { main, programs, numbers, plain } = this;
+    return this.open.length > 0 || !this.started
+      ? undefined
+      : { main, programs, numbers, flat: `${this.flat.join("\n")}\n.END\n`, plain };
+  }
+
+  private enter(node: Node, inside: Node[], ends = 1): void {
+    this.list.push(node);
+    this.open.push({ ends, outer: this.list, left: ends, node });
+    this.list = inside;
+    this.plain = false;
+  }
+
+  /** @returns how many lines were read; "other" for what has no counterpart among the steps of a program. */
+  line(i: number): number | "other" {
+    const text = this.lines[i]!.trim();
     const line = i + 1;
     if (text.startsWith(";")) {
-      list.push(remark(text.slice(1).trim(), line));
-      continue;
+      this.list.push(remark(text.slice(1).trim(), line));
+      return 1;
     }
     const code = text.includes('"') ? text : text.replace(/\s*;.*$/, "");
     const header = /^\.PROGRAM\s+([A-Z][A-Z0-9_.]*)\s*\(\s*\)$/i.exec(code);
-    if (header !== null) {
-      if (open.length > 0) return undefined;
-      if (started) {
-        const name = header[1]!.toLowerCase();
-        const outline: Node[] = [];
-        programs.set(name, { title: /;(.*)$/.exec(text)?.[1]?.trim() || name, outline });
-        list = outline;
-        plain = false;
-      } else flat[i] = code;
-      started = true;
-      continue;
-    }
-    if (/^\.END$/i.test(code)) {
-      if (open.length > 0) return undefined;
-      continue;
-    }
-    const found = patternAt(lines, i);
+    if (header !== null) return this.header(header[1]!.toLowerCase(), text, code, i);
+    if (/^\.END$/i.test(code)) return this.open.length > 0 ? "other" : 1;
+    const found = patternAt(this.lines, i);
     if (found !== undefined) {
       const inside: Node[] = [];
-      enter({ kind: "pallet", line, pattern: found.pattern, inside }, inside, 3);
-      flat[i] = `SET ${found.pattern.place} = NULL`;
-      i += found.lines - 1;
-      continue;
+      this.enter({ kind: "pallet", line, pattern: found.pattern, inside }, inside, 3);
+      this.flat[i] = `SET ${found.pattern.place} = NULL`;
+      return found.lines;
     }
+    if (this.opens(code, line)) return 1;
+    const block = this.open.at(-1);
+    if (/^ELSE$/i.test(code)) {
+      if (block?.node.kind !== "if" || block.node.else !== undefined) return "other";
+      block.node.else = this.list = [];
+      return 1;
+    }
+    if (/^END$/i.test(code)) return this.closes() ? 1 : "other";
+    // The loops of a pallet end together.
+    if (block !== undefined && block.left < block.ends && code !== "") return "other";
+    return this.statement(code, line) ? 1 : "other";
+  }
+
+  private header(name: string, text: string, code: string, i: number): 1 | "other" {
+    if (this.open.length > 0) return "other";
+    if (this.started) {
+      const outline: Node[] = [];
+      this.programs.set(name, { title: /;(.*)$/.exec(text)?.[1]?.trim() || name, outline });
+      this.list = outline;
+      this.plain = false;
+    } else this.flat[i] = code;
+    this.started = true;
+    return 1;
+  }
+
+  /** Whether the line opens a loop or a decision. */
+  private opens(code: string, line: number): boolean {
+    const inside: Node[] = [];
     const loop = /^FOR\s+([A-Z][A-Z0-9_.]*)\s*=\s*1\s+TO\s+([0-9]+)$/i.exec(code);
     if (loop !== null || /^WHILE\s+TRUE\s+DO$/i.test(code)) {
-      const inside: Node[] = [];
-      enter({ kind: "repeat", line, times: loop === null ? "forever" : Number(loop[2]), inside }, inside);
-      continue;
+      this.enter({ kind: "repeat", line, times: loop === null ? "forever" : Number(loop[2]), inside }, inside);
+      return true;
     }
     const choice = /^IF\s+SIG\s*\(\s*(-?)\s*([A-Z][A-Z0-9_.]*|[0-9]+)\s*\)\s+THEN$/i.exec(code);
-    if (choice !== null) {
-      const inside: Node[] = [];
-      enter({ kind: "if", line, signal: choice[2]!.toLowerCase(), is: choice[1] === "", then: inside }, inside);
-      continue;
+    if (choice === null) return false;
+    this.enter({ kind: "if", line, signal: choice[2]!.toLowerCase(), is: choice[1] === "", then: inside }, inside);
+    return true;
+  }
+
+  private closes(): boolean {
+    const block = this.open.at(-1);
+    if (block === undefined) return false;
+    if (--block.left === 0) {
+      this.open.pop();
+      this.list = block.outer;
     }
-    const block = open.at(-1);
-    if (/^ELSE$/i.test(code)) {
-      if (block?.node.kind !== "if" || block.node.else !== undefined) return undefined;
-      block.node.else = list = [];
-      continue;
-    }
-    if (/^END$/i.test(code)) {
-      if (block === undefined) return undefined;
-      if (--block.left === 0) {
-        open.pop();
-        list = block.outer;
-      }
-      continue;
-    }
-    // The loops of a pallet end together.
-    if (block !== undefined && block.left < block.ends && code !== "") return undefined;
+    return true;
+  }
+
+  private statement(code: string, line: number): boolean {
     const call = /^CALL\s+([A-Z][A-Z0-9_.]*)\s*(?:\(\s*\))?$/i.exec(code);
     if (call !== null) {
-      list.push({ kind: "call", line, program: call[1]!.toLowerCase() });
-      plain = false;
-      continue;
+      this.list.push({ kind: "call", line, program: call[1]!.toLowerCase() });
+      this.plain = false;
+      return true;
     }
     if (/^(?:HALT|STOP)$/i.test(code)) {
-      list.push({ kind: "stop", line });
-      plain = false;
-      continue;
+      this.list.push({ kind: "stop", line });
+      this.plain = false;
+      return true;
     }
-    if (OTHER.test(code)) return undefined;
+    if (OTHER.test(code)) return false;
     const given = /^([A-Z][A-Z0-9_.]*)\s*=\s*([0-9]+)$/i.exec(code);
-    if (given !== null) numbers.set(given[1]!.toLowerCase(), Number(given[2]));
-    flat[i] = lines[i]!;
-    if (code !== "") list.push({ kind: "line", line });
+    if (given !== null) this.numbers.set(given[1]!.toLowerCase(), Number(given[2]));
+    this.flat[line - 1] = this.lines[line - 1]!;
+    if (code !== "") this.list.push({ kind: "line", line });
+    return true;
   }
-  return open.length > 0 || !started
-    ? undefined
-    : { main, programs, numbers, flat: `${flat.join("\n")}\n.END\n`, plain };
 }
 
 /**
@@ -168,11 +198,9 @@ function patternAt(
   let next = at;
   const match = (pattern: string): RegExpExecArray | null =>
     new RegExp(`^\\s*${pattern}\\s*$`, "i").exec(lines[next++] ?? "");
-  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`);
-  const layers = first && match("FOR (\\w+) = 0 TO (\\d+)");
-  const outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
-  const inner = outer && match(`FOR (\\w+) = 0 TO (\\d+)(-\\(${outer[1]!} MOD 2\\))?`);
-  if (!inner) return undefined;
+  const nest = nestOf(match);
+  if (nest === undefined) return undefined;
+  const { first, layers, outer, inner } = nest;
   const shifted = inner[3] !== undefined;
   const o = outer[1]!;
   const n = inner[1]!;
@@ -206,4 +234,15 @@ function patternAt(
       layer_mm: part(4),
     },
   };
+}
+
+/** The first place and the three loops that a pattern begins with. */
+function nestOf(
+  match: (pattern: string) => RegExpExecArray | null,
+): Readonly<Record<"first" | "layers" | "outer" | "inner", RegExpExecArray>> | undefined {
+  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`);
+  const layers = first && match("FOR (\\w+) = 0 TO (\\d+)");
+  const outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
+  const inner = outer && match(`FOR (\\w+) = 0 TO (\\d+)(-\\(${outer[1]!} MOD 2\\))?`);
+  return inner ? { first, layers, outer, inner } : undefined;
 }

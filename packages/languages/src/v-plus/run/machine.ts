@@ -177,6 +177,19 @@ export class Machine {
         state.setBase(x!, y!, z!, turn!);
         break;
       }
+      default:
+        return yield* this.setting(statement, stack);
+    }
+    yield* this.note({ line: statement.line });
+  }
+
+  /** How the motions that follow are carried out. */
+  private *setting(
+    statement: Exclude<Statement, { kind: "assign" | "set" | "here" | "decompose" | "tool" | "base" }>,
+    stack: Frame[],
+  ): Generator<Executed, void> {
+    const { state } = this;
+    switch (statement.kind) {
       case "config":
         state.configure(statement.word);
         break;
@@ -194,6 +207,36 @@ export class Machine {
         break;
       case "signal":
         return yield* this.set(statement);
+      default:
+        return yield* this.action(statement, stack);
+    }
+    yield* this.note({ line: statement.line });
+  }
+
+  /** What the robot does, and where the program goes on. */
+  private *action(
+    statement: Exclude<
+      Statement,
+      {
+        kind:
+          | "assign"
+          | "set"
+          | "here"
+          | "decompose"
+          | "tool"
+          | "base"
+          | "config"
+          | "speed"
+          | "duration"
+          | "path"
+          | "break"
+          | "signal";
+      }
+    >,
+    stack: Frame[],
+  ): Generator<Executed, void> {
+    const { state } = this;
+    switch (statement.kind) {
       case "accel": {
         const percent = number(statement.percent, state);
         if (!(percent > 0))

@@ -156,6 +156,19 @@ export class ProgramWriter {
         return add("HALT");
       case "comment":
         return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
+      default:
+        return this.flow(step);
+    }
+  }
+
+  /** What computes, repeats and decides. */
+  private flow(
+    step: Exclude<Step, { type: "wait" | "gripper" | "move" | "set" | "wait-for" | "message" | "stop" | "comment" }>,
+  ): void {
+    const add = (line: string): void => {
+      this.out.add(`${this.indent}${line}`, step.id);
+    };
+    switch (step.type) {
       case "assign":
         return add(assignText(step, " = ", this.words, this.program));
       case "while":

@@ -44,111 +44,126 @@ interface OpenProgram extends TextPlace {
 
 /** Reads programs (.pgx) and data (.dtx), one behind the other. */
 export function readApplication(text: string): ApplicationAnswer {
-  const programs: OpenProgram[] = [];
-  const data: DataDeclaration[] = [];
-  let program: OpenProgram | undefined;
-  let values: Map<string, string>[] | undefined;
-  let seen = false;
-  let section = "";
-  let databases = 0;
-  let father = "";
-  /** A part of a section of an older file: a datum, one of its values, or what such a value holds. */
-  const older = (part: Extract<XmlPart, { kind: "open" | "close" }>, name: string, own: string): void => {
-    if (
-      section === `${name}section` ||
-      (own !== "" && !name.startsWith("value") && !name.endsWith("father") && values === undefined)
-    ) {
-      values = [];
-      father = "";
-      data.push({ name: own, type: newType(name), size: sizeOf(part), values, line: part.line, column: part.column });
-      return;
-    }
-    if (name.endsWith("father")) {
-      father = own;
-      values?.at(-1)?.set("fatherId", own);
-    } else if (name.startsWith("value")) values?.push(new Map([...part.attributes, ["fatherId", father]]));
-    else for (const [key, value] of part.attributes) values?.at(-1)?.set(key, value);
-  };
+  const reader = new PartReader();
   try {
-    for (const part of xmlParts(plainText(text).replace(/\r(?!\n)/g, "\n"))) {
-      if (part.kind === "data") {
-        if (program === undefined) throw new TextError(part, "a program", "Code stands outside a program.");
-        program.code = { text: part.text, at: { line: part.line, column: part.column } };
-        continue;
-      }
-      const name = part.name.toLowerCase();
-      const own = part.attributes.get("name") ?? "";
-      if (part.kind === "close") {
-        if (name === "program") program = undefined;
-        if (name === section) section = "";
-        continue;
-      }
-      if (section !== "") {
-        older(part, name, own);
-        continue;
-      }
-      switch (name) {
-        case "programs":
-        case "programlist":
-        case "datalist":
-        case "database":
-          databases++;
-          seen = true;
-          break;
-        case "project":
-          seen = true;
-          break;
-        case "program":
-          // A project lists its programs by their files.
-          if (!part.attributes.has("name")) break;
-          if (programs.some(other => other.name === own))
-            throw new TextError(part, "a name used once", `The program ${own} is there twice.`);
-          program = { name: own, parameters: [], locals: new Map(), line: part.line, column: part.column };
-          programs.push(program);
-          break;
-        case "parameter":
-        case "param": {
-          const type = newType(part.attributes.get("type") ?? "num");
-          const isBack = part.attributes.get("use") === "reference" || part.attributes.get("byVal") === "false";
-          program?.parameters.push({ name: own, type, ...(isBack ? { isBack } : {}) });
-          break;
-        }
-        case "local":
-          program?.locals.set(own, newType(part.attributes.get("type") ?? "num"));
-          break;
-        case "data": {
-          if (!part.attributes.has("name")) break;
-          // The data of a library behind those of the application: its own are met first.
-          const isAgain = data.some(other => other.name === own);
-          if (isAgain && databases < 2)
-            throw new TextError(part, "a name used once", `The datum ${own} is there twice.`);
-          values = [];
-          if (isAgain) break;
-          data.push({
-            name: own,
-            type: part.attributes.get("type") ?? "",
-            size: sizeOf(part),
-            values,
-            line: part.line,
-            column: part.column,
-          });
-          break;
-        }
-        case "value":
-          values?.push(new Map(part.attributes));
-          break;
-        default:
-          // The sections of older files: what they hold is told by the name of the tag.
-          if (seen && program === undefined && name.endsWith("section") && !part.isEmpty) section = name;
-          break;
-      }
-    }
-    if (!seen || programs.length === 0)
+    for (const part of xmlParts(plainText(text).replace(/\r(?!\n)/g, "\n"))) reader.part(part);
+    if (!reader.seen || reader.programs.length === 0)
       throw new TextError({ line: 1, column: 1 }, "<Programs>", "The text holds no program of VAL 3.");
   } catch (cause) {
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
   }
+  return applicationOf(reader.programs, reader.data);
+}
+
+type Tag = Extract<XmlPart, { kind: "open" | "close" }>;
+
+class PartReader {
+  readonly programs: OpenProgram[] = [];
+  readonly data: DataDeclaration[] = [];
+  /** Something of VAL 3 was met. */
+  seen = false;
+  private program: OpenProgram | undefined;
+  private values: Map<string, string>[] | undefined;
+  /** The section of an older file that is read. */
+  private section = "";
+  private databases = 0;
+  private father = "";
+
+  part(part: XmlPart): void {
+    if (part.kind === "data") {
+      if (this.program === undefined) throw new TextError(part, "a program", "Code stands outside a program.");
+      this.program.code = { text: part.text, at: { line: part.line, column: part.column } };
+      return;
+    }
+    const name = part.name.toLowerCase();
+    const own = part.attributes.get("name") ?? "";
+    if (part.kind === "close") {
+      if (name === "program") this.program = undefined;
+      if (name === this.section) this.section = "";
+    } else if (this.section !== "") this.older(part, name, own);
+    else this.tag(part, name, own);
+  }
+
+  private tag(part: Tag, name: string, own: string): void {
+    switch (name) {
+      case "programs":
+      case "programlist":
+      case "datalist":
+      case "database":
+        this.databases++;
+        this.seen = true;
+        return;
+      case "project":
+        this.seen = true;
+        return;
+      case "program":
+        return this.beginProgram(part, own);
+      case "parameter":
+      case "param":
+        return this.parameter(part, own);
+      case "local":
+        this.program?.locals.set(own, newType(part.attributes.get("type") ?? "num"));
+        return;
+      case "data":
+        return this.datum(part, own);
+      case "value":
+        this.values?.push(new Map(part.attributes));
+        return;
+      default:
+        // The sections of older files: what they hold is told by the name of the tag.
+        if (this.seen && this.program === undefined && name.endsWith("section") && !part.isEmpty) this.section = name;
+    }
+  }
+
+  private beginProgram(part: Tag, own: string): void {
+    // A project lists its programs by their files.
+    if (!part.attributes.has("name")) return;
+    if (this.programs.some(other => other.name === own))
+      throw new TextError(part, "a name used once", `The program ${own} is there twice.`);
+    this.program = { name: own, parameters: [], locals: new Map(), line: part.line, column: part.column };
+    this.programs.push(this.program);
+  }
+
+  private parameter({ attributes }: Tag, own: string): void {
+    const type = newType(attributes.get("type") ?? "num");
+    const isBack = attributes.get("use") === "reference" || attributes.get("byVal") === "false";
+    this.program?.parameters.push({ name: own, type, ...(isBack ? { isBack } : {}) });
+  }
+
+  private datum(part: Tag, own: string): void {
+    if (!part.attributes.has("name")) return;
+    // The data of a library behind those of the application: its own are met first.
+    const isAgain = this.data.some(other => other.name === own);
+    if (isAgain && this.databases < 2)
+      throw new TextError(part, "a name used once", `The datum ${own} is there twice.`);
+    this.values = [];
+    if (!isAgain) this.addDatum(part, own, part.attributes.get("type") ?? "", this.values);
+  }
+
+  private addDatum(part: Tag, name: string, type: string, values: Map<string, string>[]): void {
+    this.data.push({ name, type, size: sizeOf(part), values, line: part.line, column: part.column });
+  }
+
+  /** A part of a section of an older file: a datum, one of its values, or what such a value holds. */
+  private older(part: Tag, name: string, own: string): void {
+    const isFather = name.endsWith("father");
+    const isValue = name.startsWith("value");
+    if (this.section === `${name}section` || (own !== "" && !isValue && !isFather && this.values === undefined)) {
+      this.values = [];
+      this.father = "";
+      return this.addDatum(part, own, newType(name), this.values);
+    }
+    const last = this.values?.at(-1);
+    if (isFather) {
+      this.father = own;
+      last?.set("fatherId", own);
+    } else if (isValue) this.values?.push(new Map([...part.attributes, ["fatherId", this.father]]));
+    else for (const [key, value] of part.attributes) last?.set(key, value);
+  }
+}
+
+function applicationOf(programs: readonly OpenProgram[], data: readonly DataDeclaration[]): ApplicationAnswer {
   const faults: TextFault[] = [];
   const routines = new Map<string, Routine>();
   const entry = programs.find(({ name }) => name === "start") ?? programs[0]!;

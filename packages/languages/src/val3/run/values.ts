@@ -151,18 +151,7 @@ export function componentOf(value: Value, name: string): Value | undefined {
     case "joint":
       return value.deg[JOINTS.indexOf(name)];
     case "mdesc":
-      return name === "tvel"
-        ? value.tmax
-        : name === "accel" ||
-            name === "vel" ||
-            name === "tmax" ||
-            name === "leave" ||
-            name === "reach" ||
-            name === "blend"
-          ? value[name]
-          : name === "decel"
-            ? value.accel
-            : undefined;
+      return partOf(value, name);
     default:
       return undefined;
   }
@@ -181,15 +170,47 @@ export function withComponent(value: Value, name: string, to: Value): Value | un
     const place = JOINTS.indexOf(name);
     return place < 0 ? undefined : { ...value, deg: value.deg.with(place, to) };
   }
-  if (value.kind !== "mdesc") return undefined;
-  if (typeof to === "number") {
-    if (name === "tvel" || name === "tmax") return { ...value, tmax: to };
-    if (name === "decel" || name === "rvel" || name === "rmax") return value;
-    return name === "accel" || name === "vel" || name === "leave" || name === "reach"
-      ? { ...value, [name]: to }
-      : undefined;
+  return value.kind === "mdesc" ? withPart(value, name, to) : undefined;
+}
+
+/** A part of a motion descriptor. */
+function partOf(descriptor: Description, name: string): Value | undefined {
+  switch (name) {
+    case "tvel":
+      return descriptor.tmax;
+    case "decel":
+      return descriptor.accel;
+    case "accel":
+    case "vel":
+    case "tmax":
+    case "leave":
+    case "reach":
+    case "blend":
+      return descriptor[name];
+    default:
+      return undefined;
   }
-  return name === "blend" && typeof to === "string" ? { ...value, blend: to.toLowerCase() } : undefined;
+}
+
+function withPart(descriptor: Description, name: string, to: Value): Value | undefined {
+  if (typeof to !== "number")
+    return name === "blend" && typeof to === "string" ? { ...descriptor, blend: to.toLowerCase() } : undefined;
+  switch (name) {
+    case "tvel":
+    case "tmax":
+      return { ...descriptor, tmax: to };
+    case "decel":
+    case "rvel":
+    case "rmax":
+      return descriptor;
+    case "accel":
+    case "vel":
+    case "leave":
+    case "reach":
+      return { ...descriptor, [name]: to };
+    default:
+      return undefined;
+  }
 }
 
 /** What a variable of a program begins with. */

@@ -201,6 +201,17 @@ export class ApplicationWriter extends BlockStepWriter {
           );
         return add(`putln("${text}")`);
       }
+      default:
+        return this.flow(step);
+    }
+  }
+
+  /** What ends, repeats and decides. */
+  private flow(step: Exclude<Step, { type: "move" | "wait" | "gripper" | "set" | "wait-for" | "message" }>): void {
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    switch (step.type) {
       case "stop":
         this.onlyInMain(step, "ends the program");
         return add("return");

@@ -1,0 +1,73 @@
+import { palletSlots, unrolled, type Program } from "@twincell/core";
+import type { Page } from "playwright-core";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { drawn, picture, Studio } from "./support/studio.ts";
+
+let studio: Studio;
+beforeAll(async () => {
+  studio = await Studio.start();
+});
+afterAll(async () => {
+  await studio.stop();
+});
+
+const theProgram = (page: Page): Promise<Program> =>
+  page.evaluate(() => {
+    const { document } = window.twincell.stores.cellStore.getState();
+    return document!.programs.find(program => program.name === document!.program) as Program;
+  });
+async function add(page: Page, item: string): Promise<void> {
+  await page.getByRole("button", { name: "Add a step" }).click();
+  await page.getByRole("menuitem", { name: item, exact: true }).click();
+}
+const stand = (page: Page, q: readonly number[]): Promise<void> =>
+  page.evaluate(angles => {
+    window.twincell.live.showJoints(angles);
+  }, q);
+const OVER = [0.2, -1.0, 1.7, 0, 0.87, 0.2];
+
+test("M-54 T-70 the palletising job is taught from an empty program: three corners, a point over place 1, a routine", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("file.new");
+  });
+  await stand(page, OVER);
+  await add(page, "Add: at each place of a pallet");
+  await stand(page, [0.5, -1.0, 1.7, 0, 0.87, 0.2]);
+  await page.getByRole("button", { name: "End of row 1: take where the tool is" }).click();
+  await stand(page, [0.2, -0.8, 1.6, 0, 0.77, 0.2]);
+  await page.getByRole("button", { name: "End of column 1: take where the tool is" }).click();
+  const rows = page.getByRole("textbox", { name: "Rows" });
+  await rows.fill("0");
+  await page.getByRole("alert").filter({ hasText: "whole number from 1" }).waitFor();
+  await rows.fill("2");
+  await rows.press("Enter");
+  await page.getByText("6 places").waitFor();
+  await page.screenshot({ path: picture("editor-pallet") });
+  // Recorded while the pallet is selected: it goes into it, and counts from the place.
+  await stand(page, OVER);
+  await page.getByRole("button", { name: "LIN", exact: true }).first().click();
+  await page.getByText("It counts from each place of Pallet 1").waitFor();
+  await page.screenshot({ path: picture("editor-move") });
+  const program = await theProgram(page);
+  expect(palletSlots(program.pallets["Pallet 1"]!)).toHaveLength(6);
+  expect(Array.from(unrolled(program), step => step.type)).toEqual(Array.from({ length: 6 }, () => "move"));
+
+  await add(page, "Add: routine");
+  await add(page, "Add: close gripper");
+  await add(page, "Add: set a signal");
+  await page.getByRole("radio", { name: "goes back" }).click();
+  expect((await theProgram(page)).routines).toMatchObject({
+    Routine: [
+      { type: "gripper", closed: true },
+      { type: "set", pulse_s: 0.5 },
+    ],
+  });
+  await page.getByRole("button", { name: "Search the steps" }).click();
+  await page.getByRole("searchbox", { name: "Search the steps" }).fill("output");
+  await page.getByText("1 step is found.").waitFor();
+  await page.screenshot({ path: picture("editor-search") });
+  expect(problems).toEqual([]);
+});
