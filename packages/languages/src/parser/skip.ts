@@ -112,18 +112,24 @@ function without<A extends { readonly kind: string }>(
     for (const fault of faults) {
       const at = fault.line - 1;
       const line = lines[at];
-      if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
-      // A call that decides more than itself is not left out.
-      if (only !== undefined && [shapes.opens, shapes.parts, shapes.closes].some(shape => shape.test(line))) continue;
+      if (line === undefined || gone.has(at) || !mayGo(line, shapes, only !== undefined)) continue;
       skipped.push({ ...skipBlock(fault), fault });
       isShorter = true;
       // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
-      if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;
+      if (isOfBlock(line, shapes)) break;
     }
     if (!isShorter) break;
   }
   return { kind: "not-understood", faults };
 }
+
+/** Opens a block, goes on to another part of it, or closes it. */
+const isOfBlock = (line: string, { opens, parts, closes }: LineShapes): boolean =>
+  [opens, parts, closes].some(shape => shape.test(line));
+
+/** A call that decides more than itself is not left out where only calls are. */
+const mayGo = (line: string, shapes: LineShapes, callsOnly: boolean): boolean =>
+  line.trim() !== "" && !shapes.keeps.test(line) && !(callsOnly && isOfBlock(line, shapes));
 
 const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood =>
   answer.kind === "not-understood";

@@ -91,19 +91,8 @@ export function executeText(
   } catch (cause) {
     if (!(cause instanceof Fault)) throw cause;
     // It goes on when an input changes: what was done up to there is what it does until then.
-    if (cause instanceof TextError && isMissingProgram(cause)) return { kind: "not-understood", faults: [cause.fault] };
     if (cause instanceof WaitsOutside) return executed(`${cause.message} ${cause.hint}`.trim());
-    return {
-      kind: "not-understood",
-      faults: [
-        {
-          line,
-          column: 1,
-          expected: "a statement that can be executed",
-          sentence: `${cause.message} ${cause.hint}`.trim(),
-        },
-      ],
-    };
+    return notUnderstood(cause, line);
   }
   return executed(cut);
 
@@ -124,3 +113,17 @@ export function executeText(
     };
   }
 }
+
+const notUnderstood = (cause: Fault, line: number): ExecutedText => ({
+  kind: "not-understood",
+  faults: [
+    cause instanceof TextError && isMissingProgram(cause)
+      ? cause.fault
+      : {
+          line,
+          column: 1,
+          expected: "a statement that can be executed",
+          sentence: `${cause.message} ${cause.hint}`.trim(),
+        },
+  ],
+});
