@@ -60,8 +60,6 @@ export function textRun(
 ): TextRun | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] } {
   const interpreted = dialect.interpret(text, setting.robot, setting.worldFromBase, {
     skipUnknown: setting.skipUnknown ?? false,
-    // Whoever runs it was asked: see `linesAssumed`.
-    missingPrograms: "leave-out",
   });
   if (interpreted.kind === "not-understood") return interpreted;
   const statements: Iterator<Executed, void> = interpreted.run(control.signals);
