@@ -9,13 +9,17 @@ export type DialogName =
   | "export"
   | "import"
   | "robots"
+  | "own-robot"
+  | "dh-table"
   | "station"
   | "collision"
   | "cameras"
   | "people"
+  | "fleet"
   | "shapes"
   | "run-question"
-  | "demonstration";
+  | "demonstration"
+  | "glove";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */
