@@ -184,12 +184,23 @@ test("a fault is named with its own file, a binary program and a missing file wi
   expect(twincell("run", join(folder, "none.src"), ...ROBOT)).toMatchObject({ code: 2 });
 });
 
-test("check --as-text is not ok where a program that is called is in none of the files: the line, and exit 1", () => {
+test("check --as-text refuses a text that calls a program of no file, with its line; left out when asked for, it is not ok: exit 1", () => {
   const path = join(folder, "main.ls");
   const position =
     "P[1]{\n   GP1:\n  UF : 0, UT : 1,\n  J1= 0 deg, J2= 0 deg, J3= 0 deg,\n  J4= 0 deg, J5= -90 deg, J6= 0 deg\n};\n";
   writeFileSync(path, `/PROG MAIN\n/MN\n   1:  J P[1] 50% FINE ;\n   2:  CALL PICK ;\n/POS\n${position}/END\n`);
-  const checked = twincell("check", path, "--as-text", "--robot", "fanuc_lrmate200id");
+  for (const command of [
+    ["check", path, "--as-text"],
+    ["run", path],
+  ] as const) {
+    const refused = twincell(...command, "--robot", "fanuc_lrmate200id");
+    expect([refused.code, refused.out]).toEqual([2, ""]);
+    expect(refused.err).toContain(
+      `${path}, line 4, column 8: PICK is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.`,
+    );
+  }
+  expect(twincell("run", path, "--leave-out-missing", "--robot", "fanuc_lrmate200id").code).toBe(0);
+  const checked = twincell("check", path, "--as-text", "--leave-out-missing", "--robot", "fanuc_lrmate200id");
   expect(checked.code).toBe(1);
   const { ok, steps, assumed } = JSON.parse(checked.out) as Judged & { assumed: { file: string; line: number }[] };
   expect([ok, steps.map(({ verdict }) => verdict)]).toEqual([false, ["ok"]]);

@@ -167,6 +167,11 @@ export interface Skipped extends TextFault {
 export interface ReadOptions {
   /** Leaves out the statements that are not understood instead of refusing the text, and tells each of them. */
   readonly skipUnknown?: boolean;
+  /**
+   * A call of a program that is in none of the files does nothing and is told in `notExecuted`. Without it the text is
+   * refused, every such call with its line.
+   */
+  readonly missingPrograms?: "leave-out";
 }
 export type Parsed =
   | {

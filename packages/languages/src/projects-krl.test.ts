@@ -259,5 +259,7 @@ test("motion that the sensor of another program corrects is refused with its lin
   const files = {
     "track.src": ["&ACCESS RVP", "DEF track( )", "BAS (#INITMOV,0 )", "PTP XHOME", "RSI_MOVECORR( )", "END"],
   };
-  expect(run(files).does).toEqual(["track.src 5: Routine RSI_MOVECORR is not in this text."]);
+  expect(run(files).does).toEqual([
+    "track.src 5: RSI_MOVECORR is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.",
+  ]);
 });

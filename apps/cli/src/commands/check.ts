@@ -24,7 +24,7 @@ import { UseFault, type Command } from "../io/usage.ts";
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, torques, branches, collision",
-  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M]
+  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D] [--leave-out-missing]] [--robot R] [--cell CELL] [--margin M]
                 [--junit FILE] [--certificate FILE | --verify FILE] [--json]
 
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad.
@@ -33,6 +33,8 @@ Where torques are known, which joint is asked most goes to stderr as well; where
   --as-text       FILE is a vendor's program text, several of one program, a folder or ZIP of them, or a cell whose
                   selected program is a text: it is executed as its controller would and judged; each step says its
                   "file" and "line"; inputs: --inputs
+  --leave-out-missing  with --as-text: a called program that is in none of the files does nothing; the verdict is then not
+                  ok and names the call. Without it such a text is refused, with file, line and name
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
@@ -57,6 +59,7 @@ ${ROBOT_HELP}`,
       "as-text": { type: "boolean" },
       dialect: { type: "string" },
       inputs: { type: "string" },
+      "leave-out-missing": { type: "boolean" },
       json: { type: "boolean" },
     });
     const [path] = options.positionals;
@@ -117,6 +120,7 @@ async function checkText(options: Given, chosen: RobotToRun | undefined, margin_
   const worldFromBase = cell?.robot.worldFromBase;
   const executed = executeText(project.dialect, project.joined.text, project.placeOf(1).path, robot, worldFromBase, {
     inputs: inputsFrom(options.text("inputs")),
+    ...(options.flag("leave-out-missing") ? { missingPrograms: "leave-out" as const } : {}),
   });
   if (executed.kind === "not-understood") throw projectFault(project, executed.faults);
   for (const { line, sentence } of executed.notExecuted) {

@@ -18,10 +18,12 @@ export const runCommand: Command = {
   name: "run",
   summary: "interpret a vendor's program text, one line per period; with --on run a program on a robot",
   usage: `twincell run FILE… --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
+                [--leave-out-missing]
        twincell run FILE… --on HOST[:PORT] [--as-text] [--paced [--gap S]] [--despite CODES]
 
 FILE is a program text, several of one program, a folder or ZIP of them, or a cell whose selected program is a text; a file's siblings
-(program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.
+(program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr. A text that calls a program that is in none of the files is refused with file, line
+and name; with --leave-out-missing such a call does nothing and is named on stderr.
 
 With --on the program (a taught one, .json, or a text, executed to its steps) runs on a robot: planned from where it stands and checked
 in its cell first. What makes the check red keeps it from being sent.
@@ -44,6 +46,7 @@ ${COMMANDER_HELP}`,
       period: { type: "string" },
       inputs: { type: "string" },
       "skip-unknown": { type: "boolean" },
+      "leave-out-missing": { type: "boolean" },
       json: { type: "boolean" },
     });
     if (options.text("on") !== undefined)
@@ -61,6 +64,7 @@ ${COMMANDER_HELP}`,
         : (await readCell(cellPath)).robot.worldFromBase;
     const interpreted = dialect.interpret(joined.text, robot, worldFromBase, {
       skipUnknown: options.flag("skip-unknown"),
+      ...(options.flag("leave-out-missing") ? { missingPrograms: "leave-out" as const } : {}),
     });
     if (interpreted.kind === "not-understood") throw projectFault(project, interpreted.faults);
     reportSkipped(

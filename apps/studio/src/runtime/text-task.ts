@@ -19,7 +19,10 @@ export function textTask(task: ToTextWorker): FromTextWorker {
   }
   const points = findPoints(language, files);
   const joined = joinFiles(dialect, files, main);
-  const executed = executeText(dialect, joined.text, task.name, robot, worldFromBase);
+  const executed = executeText(dialect, joined.text, task.name, robot, worldFromBase, {
+    // It is asked before such a text runs: see `assumed`.
+    missingPrograms: "leave-out",
+  });
   const at = (line: number) => joined.place(line);
   if (executed.kind === "not-understood") {
     const findings = executed.faults.map(

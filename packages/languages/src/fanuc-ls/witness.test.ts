@@ -366,7 +366,12 @@ describe("executing TP", () => {
     });
     expect(fanucLs.parse(listing("A", ["CALL NOBODY"]), robot)).toMatchObject({
       kind: "not-understood",
-      faults: [{ sentence: "The program NOBODY is not in the text." }],
+      faults: [
+        {
+          sentence:
+            "NOBODY is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.",
+        },
+      ],
     });
     expect(faultOf(listing("A", ["WEAVE SINE[1]"]))).toMatchObject({
       line: 8,

@@ -177,7 +177,12 @@ test("statements that are no steps are told with their place", () => {
   ]);
   expect(faults("Sub Main\nFor i = 1 To 3\nDelay 1\nEnd Sub\n")).toMatchObject([{ line: 4 }]);
   expect(faults("Sub Main\nCall Lost\nEnd Sub\n")).toMatchObject([
-    { line: 2, column: 6, sentence: "The routine lost is not in the text." },
+    {
+      line: 2,
+      column: 6,
+      sentence:
+        "lost is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.",
+    },
   ]);
   expect(faults("Sub Main\nMove P, P(0, 2450, 300, 180, 0, 180, 5)\nEnd Sub\n")).toMatchObject([
     { line: 2, sentence: expect.stringContaining("cannot be reached") as string },

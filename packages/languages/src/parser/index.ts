@@ -1,5 +1,6 @@
 export * from "./faults.ts";
 export * from "./notices.ts";
+export * from "./missing.ts";
 export * from "./lines.ts";
 export * from "./numbers.ts";
 export * from "./matrix.ts";

@@ -1,5 +1,7 @@
-import type { Dialect, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
+import type { Dialect, Interpreted, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
 import { checkedImport } from "../reading/checked-import.ts";
+import { isMissingProgram, leftOutSentence } from "./missing.ts";
+import { NOT_GIVEN } from "./notices.ts";
 import { dryRun } from "./rehearse.ts";
 import { withIdentity } from "./identity.ts";
 
@@ -29,8 +31,7 @@ export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boo
       );
     },
     interpret(text, robot, worldFromBase, options) {
-      if (options?.skipUnknown !== true) return dialect.interpret(text, robot, worldFromBase);
-      return without(text, lines, shorter => {
+      const tried = (shorter: string): Interpreted => {
         const answer = dialect.interpret(shorter, robot, worldFromBase);
         if (answer.kind === "not-understood") return answer;
         // Decisions may hide what is not understood: they are tried both ways.
@@ -44,11 +45,27 @@ export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boo
             }),
         });
         return fault === undefined ? answer : { kind: "not-understood" as const, faults: [fault] };
-      });
+      };
+      if (options?.skipUnknown === true) return without(text, lines, tried);
+      const answer = dialect.interpret(text, robot, worldFromBase);
+      const isAsked = options?.missingPrograms === "leave-out";
+      if (answer.kind === "ready" ? !isAsked : !answer.faults.some(isMissingProgram)) return answer;
+      // All calls that lead nowhere are looked for, so that they can be told at once.
+      const known = without(text, lines, tried, undefined, isMissingProgram);
+      if (known.kind === "not-understood" && !known.faults.every(isMissingProgram)) return known;
+      const missing = known.kind === "ready" ? known.skipped.map(({ fault }) => fault) : known.faults;
+      if (known.kind === "not-understood" || !isAsked) return { kind: "not-understood", faults: missing };
+      const { skipped: _, ...ready } = known;
+      const leftOut = missing.map(fault => ({ ...fault, expected: NOT_GIVEN, sentence: leftOutSentence(fault) }));
+      // The list grows while the text runs: it stays the same one.
+      const notExecuted = (ready.notExecuted ?? []) as TextFault[];
+      notExecuted.push(...leftOut);
+      return { ...ready, notExecuted };
     },
   };
 }
 
+type LeftOut = Skipped & { readonly fault: TextFault };
 type NotUnderstood = { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 function without<A extends { readonly kind: string }>(
@@ -56,10 +73,11 @@ function without<A extends { readonly kind: string }>(
   shapes: LineShapes,
   read: (text: string) => A | NotUnderstood,
   confirm?: (text: string) => A | NotUnderstood,
-): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
+  only?: (fault: TextFault) => boolean,
+): (Omit<A, "skipped"> & { readonly skipped: readonly LeftOut[] }) | NotUnderstood {
   const ends = text.match(/\r\n|\n|\r/g) ?? [];
   const lines = text.split(/\r\n|\n|\r/);
-  const skipped: Skipped[] = [];
+  const skipped: LeftOut[] = [];
   const gone = new Set<number>();
   const blank = shapes.blank ?? (() => "");
   /** Where the end of a block is not understood, all of the block goes: nobody knows how often it runs. */
@@ -89,20 +107,29 @@ function without<A extends { readonly kind: string }>(
     }
     ({ faults } = understood);
     first ??= faults;
+    if (only !== undefined && !faults.every(only)) return { kind: "not-understood", faults };
     let isShorter = false;
     for (const fault of faults) {
       const at = fault.line - 1;
       const line = lines[at];
-      if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
-      skipped.push(skipBlock(fault));
+      if (line === undefined || gone.has(at) || !mayGo(line, shapes, only !== undefined)) continue;
+      skipped.push({ ...skipBlock(fault), fault });
       isShorter = true;
       // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
-      if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;
+      if (isOfBlock(line, shapes)) break;
     }
     if (!isShorter) break;
   }
   return { kind: "not-understood", faults };
 }
+
+/** Opens a block, goes on to another part of it, or closes it. */
+const isOfBlock = (line: string, { opens, parts, closes }: LineShapes): boolean =>
+  [opens, parts, closes].some(shape => shape.test(line));
+
+/** A call that decides more than itself is not left out where only calls are. */
+const mayGo = (line: string, shapes: LineShapes, callsOnly: boolean): boolean =>
+  line.trim() !== "" && !shapes.keeps.test(line) && !(callsOnly && isOfBlock(line, shapes));
 
 const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood =>
   answer.kind === "not-understood";

@@ -12,12 +12,14 @@ import {
   type Step,
   type TextFault,
 } from "@twincell/core";
-import { WaitsOutside } from "../parser/index.ts";
+import { isMissingProgram, TextError, WaitsOutside } from "../parser/index.ts";
 
 export interface ExecuteOptions {
   /** What inputs say from the start; others are off. */
   readonly inputs?: Readonly<Record<string, boolean | number>>;
   readonly skipUnknown?: boolean;
+  /** See `ReadOptions`. */
+  readonly missingPrograms?: "leave-out";
   /** More steps than this are cut off, and said. */
   readonly maxSteps?: number;
 }
@@ -51,9 +53,12 @@ export function executeText(
   name: string,
   robot: Robot,
   worldFromBase: Pose<"world", "base"> = identity(),
-  { inputs = {}, skipUnknown = false, maxSteps = MAX_STEPS }: ExecuteOptions = {},
+  { inputs = {}, skipUnknown = false, maxSteps = MAX_STEPS, missingPrograms }: ExecuteOptions = {},
 ): ExecutedText {
-  const interpreted = dialect.interpret(text, robot, worldFromBase, { skipUnknown });
+  const interpreted = dialect.interpret(text, robot, worldFromBase, {
+    skipUnknown,
+    ...(missingPrograms === undefined ? {} : { missingPrograms }),
+  });
   if (interpreted.kind === "not-understood") return interpreted;
   const { context, skipped = [], notExecuted = [] } = interpreted;
   const run: Iterator<Executed, void> = interpreted.run(new SignalTable(Object.entries(inputs)));
@@ -87,17 +92,7 @@ export function executeText(
     if (!(cause instanceof Fault)) throw cause;
     // It goes on when an input changes: what was done up to there is what it does until then.
     if (cause instanceof WaitsOutside) return executed(`${cause.message} ${cause.hint}`.trim());
-    return {
-      kind: "not-understood",
-      faults: [
-        {
-          line,
-          column: 1,
-          expected: "a statement that can be executed",
-          sentence: `${cause.message} ${cause.hint}`.trim(),
-        },
-      ],
-    };
+    return notUnderstood(cause, line);
   }
   return executed(cut);
 
@@ -118,3 +113,17 @@ export function executeText(
     };
   }
 }
+
+const notUnderstood = (cause: Fault, line: number): ExecutedText => ({
+  kind: "not-understood",
+  faults: [
+    cause instanceof TextError && isMissingProgram(cause)
+      ? cause.fault
+      : {
+          line,
+          column: 1,
+          expected: "a statement that can be executed",
+          sentence: `${cause.message} ${cause.hint}`.trim(),
+        },
+  ],
+});

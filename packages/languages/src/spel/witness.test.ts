@@ -155,7 +155,12 @@ test("statements that are no steps are told with their place", () => {
   ]);
   expect(faults("Function main\nFor i = 1 To 3\nWait 1\nFend\n")).toMatchObject([{ line: 4 }]);
   expect(faults("Function main\nCall lost\nFend\n")).toMatchObject([
-    { line: 2, column: 6, sentence: "The routine lost is not in the text." },
+    {
+      line: 2,
+      column: 6,
+      sentence:
+        "lost is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.",
+    },
   ]);
   expect(faults("Function main\nGo XY(0, 2450, 300, 90, 0, 180) /L\nFend\n")).toMatchObject([
     { line: 2, sentence: expect.stringContaining("cannot be reached") as string },

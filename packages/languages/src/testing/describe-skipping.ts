@@ -84,7 +84,10 @@ export function describeSkipping(dialect: Dialect, { robot, worldFromBase }: Dia
     const run = interpreted.run();
     const done: Executed[] = [];
     for (let next = run.next(); next.done !== true; next = run.next()) done.push(next.value);
-    expect(interpreted.skipped).toEqual(parsed.skipped);
+    // What is no statement may be the name of a program that no file has.
+    const places = (skipped: readonly Skipped[] = []): unknown =>
+      skipped.map(({ what, line, lastLine, text: left }) => ({ what, line, lastLine, left }));
+    expect(places(interpreted.skipped)).toEqual(places(parsed.skipped));
     expect(done.flatMap(({ step }) => (step === undefined ? [] : [step.type]))).toEqual(
       parsed.program.steps.flatMap(({ type }) => (type === "comment" ? [] : [type])),
     );

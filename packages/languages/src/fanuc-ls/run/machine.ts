@@ -1,5 +1,5 @@
 import type { Condition, Executed, Pose, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, missingProgram } from "../../parser/index.ts";
 import type {
   Argument,
   Block,
@@ -93,21 +93,7 @@ export class Machine extends Motions {
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
     const action = this.source.actions.get(statement);
-    if (action === undefined && this.notices !== undefined) {
-      this.notices.notGiven(
-        statement,
-        `The program ${statement.name.toUpperCase()} is not among the files: what it does, motions too, is not executed.`,
-      );
-      this.arm.lose();
-      yield { line: statement.line };
-      return undefined;
-    }
-    if (action === undefined)
-      throw new TextError(
-        statement,
-        "the listing of the program that is called",
-        `The program ${statement.name.toUpperCase()} is not in the text.`,
-      );
+    if (action === undefined) throw missingProgram(statement, statement.name.toUpperCase());
     if (action.kind === "jump" || action.kind === "jump-to") {
       this.jump = action.kind === "jump" ? action.label : this.numberOf(action.label);
       this.jumpFrom = statement;

@@ -1,5 +1,5 @@
 import type { Executed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, missingProgram } from "../../parser/index.ts";
 import type { Instruction, Job, Statement } from "../read/syntax.ts";
 import { poseOf } from "./arm.ts";
 import { type Frame, ReadTooEarly } from "./executed.ts";
@@ -357,9 +357,7 @@ export class Machine extends Motions {
 
   private call({ job: name, args = [] }: Extract<Statement, { kind: "call" }>, at: TextPlace): void {
     const job = this.source.jobs.get(name);
-    if (job === undefined && this.notices !== undefined)
-      return this.away(`the job ${name}, which is not among the files,`, at);
-    if (job === undefined) throw new TextError(at, "a job of this text", `Job ${name} is not in this text.`);
+    if (job === undefined) throw missingProgram(at, name);
     if (this.stack.length >= CALL_DEPTH)
       throw new TextError(
         at,

@@ -1,5 +1,5 @@
 import type { Executed, MoveStep, Pose, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError, nameIn, rememberMap, times, type Matrix } from "../../parser/index.ts";
+import { TextError, missingProgram, nameIn, rememberMap, times, type Matrix } from "../../parser/index.ts";
 import { type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
 import { type Posture } from "./arm.ts";
@@ -224,13 +224,8 @@ export class Machine extends Evaluation {
         ];
       default: {
         const called = name.startsWith("call ") ? name.slice(5) : undefined;
-        throw new TextError(
-          statement,
-          called === undefined ? "a statement of AS" : "a program of this text",
-          called === undefined
-            ? `${name.toUpperCase()} is not understood here.`
-            : `The program ${called} is not in the text.`,
-        );
+        if (called !== undefined) throw missingProgram(statement, called);
+        throw new TextError(statement, "a statement of AS", `${name.toUpperCase()} is not understood here.`);
       }
     }
   }

@@ -1,5 +1,5 @@
 import type { Executed, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, missingProgram } from "../../parser/index.ts";
 import type { Expression, Instruction, Routine, Statement, Variable } from "../read/syntax.ts";
 import { BAS } from "./bas.ts";
 import { typed, type Frame } from "./frame.ts";
@@ -427,8 +427,7 @@ export class Machine extends Motions {
       });
     }
     if (!QUIET_ROUTINES.has(name)) {
-      if (!OF_PACKAGES.has(name))
-        throw new TextError(statement, "a routine of this text", `Routine ${name} is not in this text.`);
+      if (!OF_PACKAGES.has(name)) throw missingProgram(statement, name);
       this.remark(
         `call ${name}`,
         statement,

@@ -91,9 +91,9 @@ const GRAMMAR: BasicGrammar = {
   },
   expression: RULES,
   alike: { endif: "end if" },
+  callsFile: new Set(["callp"]),
   unsayable: {
     goto: elsewhere("GoTo jumps"),
-    callp: elsewhere("CallP starts a program of another file"),
     act: elsewhere("Act belongs to interrupts"),
     mva: elsewhere("Mva moves along an arch of the controller"),
     mvc: elsewhere("Mvc goes round a whole circle"),

@@ -1,5 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError, textFault } from "../faults.ts";
+import { missingProgram } from "../missing.ts";
 import {
   RecoveringReader,
   readExpression,
@@ -34,6 +35,8 @@ export interface BasicGrammar {
   readonly alike: Readonly<Record<string, string>>;
   /** Statements that are understood and cannot be written as steps, with what the user is told. */
   readonly unsayable: Readonly<Record<string, string>>;
+  /** Words that call a program of another file, by its name in quotes. */
+  readonly callsFile?: ReadonlySet<string>;
   /** Statements that are kept and named where a text is executed as it is: what they do, in a few words. */
   readonly shown?: Readonly<Record<string, string>>;
 }
@@ -114,8 +117,7 @@ export abstract class BasicReader extends RecoveringReader {
         });
     }
     for (const [name, at] of this.calls)
-      if (!this.routines.has(name) && !this.asText)
-        faults.push(new TextError(at, "a routine of this text", `The routine ${name} is not in the text.`).fault);
+      if (!this.routines.has(name) && !this.asText) faults.push(missingProgram(at, name).fault);
     const main = this.started();
     if (main === undefined && faults.length === 0)
       faults.push(new TextError(cursor.here, "a program", "The text holds no program.").fault);
@@ -296,6 +298,10 @@ export abstract class BasicReader extends RecoveringReader {
       if (shown !== undefined && cursor.second !== "=") return this.shown(at, shown);
       const asText = this.asText ? this.statementAsText(word, at) : undefined;
       if (asText !== undefined) return asText;
+      if (grammar.callsFile?.has(word) === true) {
+        cursor.advance();
+        throw missingProgram(at, cursor.raw);
+      }
       if (Object.hasOwn(grammar.unsayable, word))
         throw new TextError(at, "a statement of the motion program", grammar.unsayable[word]!);
       if (grammar.expression.reserved.has(word)) throw cursor.unexpected("a statement");

@@ -1,5 +1,5 @@
 import type { Condition, Executed, Pose, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside } from "../../parser/index.ts";
+import { TextError, missingProgram, WaitsOutside } from "../../parser/index.ts";
 import type { Argument, Do, Expression, Flow, WaitUntil } from "../../parser/structured/index.ts";
 import { Arguments } from "./arguments.ts";
 import { ANSWERS, GRIPPER, HALTS, OUTSIDE, QUESTIONS, REFUSED, SILENT } from "./instructions.ts";
@@ -59,8 +59,7 @@ export class Machine extends Motions {
     }
     const called = first?.value === undefined ? "" : this.evaluate(first.value);
     const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
-    if (routine === undefined)
-      throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+    if (routine === undefined) throw missingProgram(statement, String(called));
     return yield* this.call(routine, second === undefined ? others : [second, ...others], statement);
   }
 
@@ -88,8 +87,7 @@ export class Machine extends Motions {
       case "sync": {
         const called = events[0]?.value === undefined ? "" : this.evaluate(events[0].value);
         const routine = typeof called === "string" ? this.routine(called.toLowerCase()) : undefined;
-        if (routine === undefined)
-          throw new TextError(statement, "a routine of this text", `Routine "${String(called)}" is not in this text.`);
+        if (routine === undefined) throw missingProgram(statement, String(called));
         return yield* this.call(routine, [], statement);
       }
       case "trigg":
@@ -224,11 +222,10 @@ export class Machine extends Motions {
           );
           return undefined;
         }
-        throw new TextError(
-          at,
-          "an instruction of RAPID",
-          REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`,
-        );
+        // What is no instruction is the name of a procedure.
+        throw REFUSED[name] === undefined
+          ? missingProgram(at, this.spelt(name))
+          : new TextError(at, "an instruction of RAPID", REFUSED[name]);
     }
   }
 

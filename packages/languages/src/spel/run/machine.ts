@@ -1,5 +1,5 @@
 import type { MoveStep, Speed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, missingProgram } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
@@ -352,10 +352,8 @@ export class SpelMachine extends BasicMachine<Said> {
       case "arc3":
         return [this.moveTo(statement, "circ")];
       default:
-        if (this.notices !== undefined) {
-          this.away(statement, `the function ${name}, which is not among the files,`);
-          return [];
-        }
+        // What is no statement is the name of a function.
+        if (this.notices !== undefined) throw missingProgram(statement, name);
         throw new TextError(statement, "a statement of SPEL+", `"${name}" is not understood here.`);
     }
   }

@@ -8,7 +8,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, rememberMap } from "../../parser/index.ts";
+import { TextError, missingProgram, nameIn, rememberMap } from "../../parser/index.ts";
 import { type Block, type Do, type Flow, type Statement, type WaitUntil } from "../../parser/structured/index.ts";
 import { SILENT } from "../read/silent.ts";
 import { matrixOf, toPose } from "./frame.ts";
@@ -203,11 +203,9 @@ export class Machine extends Evaluation {
           );
         }
         if (!SILENT.has(name) && name !== "run" && name !== "kill" && name !== "join")
-          throw new TextError(
-            statement,
-            "a statement of URScript",
-            REFUSED[name] ?? `"${name}" is no statement of URScript that is understood here.`,
-          );
+          throw REFUSED[name] === undefined
+            ? missingProgram(statement, name)
+            : new TextError(statement, "a statement of URScript", REFUSED[name]);
       }
     }
     yield { line: statement.line };

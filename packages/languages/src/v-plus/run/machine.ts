@@ -9,7 +9,7 @@ import {
   type Step,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, type ShownAxes } from "../../parser/index.ts";
+import { TextError, missingProgram, type ShownAxes } from "../../parser/index.ts";
 import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
 import { ControllerState, type DeclaredContext } from "./state.ts";
 import { fromTrans, times, type Transform } from "./transform.ts";
@@ -356,8 +356,7 @@ export class Machine {
 
   private call(statement: Extract<Statement, { kind: "call" }>, stack: Frame[]): void {
     const routine = this.source.routines.get(statement.program);
-    if (routine === undefined)
-      throw new TextError(statement, "a program of this file", `Program ${statement.program} is not in this file.`);
+    if (routine === undefined) throw missingProgram(statement, statement.program);
     if (stack.length >= CALL_DEPTH)
       throw new TextError(
         statement,

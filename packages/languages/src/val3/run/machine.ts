@@ -1,5 +1,5 @@
 import type { Executed, Step, TextPlace } from "@twincell/core";
-import { TextError, rememberMap } from "../../parser/index.ts";
+import { TextError, missingProgram, rememberMap } from "../../parser/index.ts";
 import {
   BlockMachine,
   changedNames,
@@ -311,12 +311,11 @@ export class Machine extends Motions {
           );
           return undefined;
         }
+        if (name.startsWith("call ")) throw missingProgram(statement, name.slice(5));
         throw new TextError(
           statement,
           "an instruction of VAL 3",
-          name.startsWith("call ")
-            ? `The program ${name.slice(5)} is not in the text.`
-            : `"${name}" is no instruction that is understood here.`,
+          `"${name}" is no instruction that is understood here.`,
         );
     }
   }
