@@ -137,7 +137,9 @@ export async function serve(options: ServeOptions): Promise<Served> {
       requests: { byClass: counts },
       ready: () => ready,
       fleet: () => parts.fleet!,
+      training: options.training === true,
       people: accounts && {
+        training: options.training === true,
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
@@ -190,7 +192,10 @@ export async function serve(options: ServeOptions): Promise<Served> {
       data: options.data,
       say,
     };
-    parts.fleet = options.nats ? await joinFleet(context, options.nats) : ownFleet(context);
+    // As other machines reach it; a server for this machine alone is reached by none.
+    const reached =
+      addresses[0] === undefined ? "" : `https://${addresses[0]}:${(server.address() as AddressInfo).port}/`;
+    parts.fleet = options.nats ? await joinFleet(context, options.nats, reached) : ownFleet(context, reached);
     standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
     await parts.fleet?.close();

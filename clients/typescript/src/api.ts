@@ -104,6 +104,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** A server for training: it opens virtual controllers and reaches no real robot. */
+      readonly training: boolean;
     };
   };
   /** Signs in by name and password; the session is a cookie */
@@ -123,6 +125,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** A server for training: it opens virtual controllers and reaches no real robot. */
+      readonly training: boolean;
     };
   };
   /** Signs out */
@@ -177,6 +181,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** A server for training: it opens virtual controllers and reaches no real robot. */
+      readonly training: boolean;
     };
   };
   /** What a browser needs to sign in by passkey (WebAuthn) */
@@ -207,6 +213,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** A server for training: it opens virtual controllers and reaches no real robot. */
+      readonly training: boolean;
     };
   };
   /** What a browser needs to make a passkey for whoever is signed in */
@@ -564,6 +572,12 @@ export interface Routes {
         readonly holder: unknown;
         /** Share of the time since its server was started in which it moved, 0 … 1. */
         readonly use: number;
+        /** The same for each ten minutes of the last eight hours, the newest last. */
+        readonly use_line: readonly number[];
+        /** Since when it has been in this state, milliseconds since 1970; 0 where unknown. */
+        readonly since_ms: number;
+        /** Where its server is reached from other machines; empty where it is not. */
+        readonly url: string;
         readonly roundTrip_s: unknown;
         /** When its last sample came, milliseconds since 1970. */
         readonly heard_ms: number;

@@ -20,7 +20,7 @@ export const serveCommand: Command = {
   summary: "serve the studio on this machine, or on the local network with --lan",
   usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--accounts] [--training] [--open]
                [--opcua P] [--rosbridge P] [--foxglove P] [--modbus P [--modbus-lines FILE]] [--sparkplug URL [--sparkplug-node GROUP/NODE]]
-               [--webhooks FILE] [--otlp URL] [--nats HOST:PORT,… --site NAME [--nats-replicas N] [--nats-hours H]]
+               [--webhooks FILE] [--plc FILE] [--otlp URL] [--nats HOST:PORT,… --site NAME [--nats-replicas N] [--nats-hours H]]
                [--host ADDRESS] [--config FILE] [--log text|json] [--studio DIR]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
@@ -34,6 +34,7 @@ export const serveCommand: Command = {
   --modbus-lines FILE  which lines are at which Modbus address: {"format":"twincell.modbus","version":1,"robots":{"arm":["in_1",…]}}
   --sparkplug URL  tells an MQTT broker (mqtt://host:1883) of every robot as Sparkplug B; --sparkplug-node GROUP/NODE (default plant/twincell)
   --webhooks FILE  addresses that are told what happens: {"format":"twincell.webhooks","version":1,"hooks":[{"url","events","robot","secret"}]}
+  --plc FILE   follows nodes of a PLC's OPC UA server: {"format":"twincell.plc","version":1,"url","signals":[{"node","robot","line","from":"plc"|"robot"}]}
   --otlp URL   sends traces to an OpenTelemetry collector (http://host:4318)
   --accounts   people sign in by name (needs --data); the first start prints a link that works once and makes the first admin
   --nats A,B,C --site NAME  tells a NATS cluster (host:port) of its robots under that name and hears of those of others (docs/scale.md);

@@ -38,6 +38,7 @@ export const SERVE_OPTIONS: readonly ServeOption[] = [
   option("sparkplug", "text", "off", "address of an MQTT broker"),
   option("sparkplug-node", "text", "plant/twincell", "GROUP/NODE of Sparkplug B"),
   option("webhooks", "text", "off", "file of addresses that are told what happens"),
+  option("plc", "text", "off", "file: which nodes of a PLC's OPC UA server belong to which lines"),
   option("otlp", "text", "off", "address of an OpenTelemetry collector"),
   option("nats", "text", "by itself", "servers of a NATS cluster"),
   option("site", "text", "needed with nats", "name of this line or plant in the cluster"),

@@ -31,6 +31,7 @@ export function standardsOf(options: Given): NonNullable<ServeOptions["standards
     modbusLines: options.text("modbus-lines"),
     sparkplug: sparkplug === undefined ? undefined : { url: sparkplug, group, node },
     webhooks: options.text("webhooks"),
+    plc: options.text("plc"),
     otlp: address(options, "otlp", ["http", "https"]),
   };
 }

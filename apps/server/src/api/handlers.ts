@@ -32,6 +32,8 @@ export interface ApiParts {
   readonly scheduler: Scheduler;
   readonly data: string | undefined;
   readonly requests: RequestCounts;
+  /** The server reaches no real robot. */
+  readonly training: boolean;
   /** Whether requests are still taken. */
   readonly ready: () => boolean;
   /** Null where nobody signs in by name. */
@@ -95,7 +97,7 @@ export function apiHandlers(parts: ApiParts): Handlers {
     fleet: () => json({ robots: parts.fleet().robots() }),
     fleetCommand: async ({ params, body }) =>
       outcomeAnswer(await parts.fleet().command(params["site"]!, body, FLEET_PATIENCE_MS)),
-    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople()),
+    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople(parts.training)),
     ...robotHandlers(parts),
     ...judgeHandlers(parts.judge),
     ...documentHandlers(documentFolder(parts.data, "programs"), documentFolder(parts.data, "cells")),

@@ -21,8 +21,12 @@ export function streamRoute(host: Pick<RobotServer, "join">, scheduler: Schedule
       const { searchParams } = new URL(request.url ?? "/", "http://here");
       const robot = searchParams.get("robot");
       const rate_Hz = Number(searchParams.get("rate_Hz") ?? Infinity);
-      if (!(rate_Hz > 0) || readers >= MOST_READERS) {
-        socket.close(1008, readers >= MOST_READERS ? "too many readers" : "rate_Hz wants a number above 0");
+      const asked = searchParams.get("messages_per_s");
+      const messages_per_s = Number(asked ?? 1);
+      if (!(rate_Hz > 0) || !(messages_per_s > 0 && messages_per_s <= 1000) || readers >= MOST_READERS) {
+        const why =
+          rate_Hz > 0 ? "messages_per_s wants a number above 0, at most 1000" : "rate_Hz wants a number above 0";
+        socket.close(1008, readers >= MOST_READERS ? "too many readers" : why);
         return;
       }
       readers++;
@@ -30,6 +34,18 @@ export function streamRoute(host: Pick<RobotServer, "join">, scheduler: Schedule
       const period_s = 1 / rate_Hz - 0.001;
       const sent_s = new Map<string, number>();
       const signals = new Map<string, unknown>();
+      // Together, many samples cost a page one message: it is drawn 60 times a second however many come.
+      const together: string[] = [];
+      const end =
+        asked === null
+          ? null
+          : scheduler.every(1 / messages_per_s, () => {
+              if (together.length > 0) socket.send(`[${together.splice(0).join(",")}]`);
+            });
+      const send = (text: string): void => {
+        if (end) together.push(text);
+        else socket.send(text);
+      };
       const sample = (station: string, text: string): void => {
         const now_s = scheduler.now_s();
         const late = now_s - (sent_s.get(station) ?? -Infinity) >= period_s;
@@ -42,9 +58,7 @@ export function streamRoute(host: Pick<RobotServer, "join">, scheduler: Schedule
         sent_s.set(station, now_s);
         const kept = signals.get(station);
         signals.delete(station);
-        socket.send(
-          kept === undefined || has ? text : JSON.stringify({ ...(JSON.parse(text) as object), signals: kept }),
-        );
+        send(kept === undefined || has ? text : JSON.stringify({ ...(JSON.parse(text) as object), signals: kept }));
       };
       const reader = host.join(`reader ${readers}`, {
         send(text) {
@@ -55,7 +69,7 @@ export function streamRoute(host: Pick<RobotServer, "join">, scheduler: Schedule
           if (robot !== null && station !== null && station !== robot) return;
           if (type === "sample" && station !== null) sample(station, text);
           else if (socket.bufferedAmount > MOST_WAITING) socket.terminate();
-          else socket.send(text);
+          else send(text);
         },
         close() {
           socket.close();
@@ -67,6 +81,7 @@ export function streamRoute(host: Pick<RobotServer, "join">, scheduler: Schedule
         if (gone) return;
         gone = true;
         readers--;
+        end?.();
         reader.leave();
       };
       socket.on("close", leave);

@@ -16,6 +16,12 @@ export const fleetRobot = z.object({
   holder: z.string().max(200).nullable(),
   /** Share of the time since its server was started in which it moved, 0 … 1. */
   use: z.number(),
+  /** The same for each ten minutes of the last eight hours, the newest last. */
+  use_line: z.array(z.number()).max(48).default([]),
+  /** Since when it has been in this state [ms]; 0 where that is not known. */
+  since_ms: z.number().default(0),
+  /** Where its server is reached from other machines; "" where it is not. */
+  url: z.string().max(300).default(""),
   /** From a question to the controller to its answer [s]. */
   roundTrip_s: z.number().nullable(),
   heard_ms: z.number(),
@@ -31,18 +37,47 @@ export const fleetBatch = z.object({
 });
 export type FleetBatch = z.infer<typeof fleetBatch>;
 
-/** Shares of the time in which robots moved, by looking now and then. */
+const PART_MS = 600_000;
+const PARTS = 48;
+interface Counted {
+  looks: number;
+  moving: number;
+  /** Looks and those in motion of each ten minutes, the newest last. */
+  readonly parts: { readonly from_ms: number; looks: number; moving: number }[];
+  state: FleetState;
+  since_ms: number;
+}
+/** Shares of the time in which robots moved, and since when they are in their state, by looking now and then. */
 export class Use {
-  private readonly counts = new Map<string, { looks: number; moving: number }>();
-  look({ id, sample }: RobotState): void {
-    const count = this.counts.get(id) ?? { looks: 0, moving: 0 };
+  private readonly counts = new Map<string, Counted>();
+  look(robot: RobotState, now_ms: number): void {
+    const { id, sample } = robot;
+    const state = stateOf(robot);
+    let count = this.counts.get(id);
+    if (!count) this.counts.set(id, (count = { looks: 0, moving: 0, parts: [], state, since_ms: now_ms }));
+    if (state !== count.state) {
+      count.state = state;
+      count.since_ms = now_ms;
+    }
+    const from_ms = Math.floor(now_ms / PART_MS) * PART_MS;
+    let part = count.parts.at(-1);
+    if (part?.from_ms !== from_ms) {
+      count.parts.push((part = { from_ms, looks: 0, moving: 0 }));
+      if (count.parts.length > PARTS) count.parts.shift();
+    }
     count.looks++;
-    if (sample?.moving === true) count.moving++;
-    this.counts.set(id, count);
+    part.looks++;
+    if (sample?.moving !== true) return;
+    count.moving++;
+    part.moving++;
   }
-  of(id: string): number {
+  of(id: string): Pick<FleetRobot, "use" | "use_line" | "since_ms"> {
     const count = this.counts.get(id);
-    return count ? count.moving / count.looks : 0;
+    return {
+      use: count ? count.moving / count.looks : 0,
+      use_line: count?.parts.map(({ looks, moving }) => Math.round((1000 * moving) / looks) / 1000) ?? [],
+      since_ms: count?.since_ms ?? 0,
+    };
   }
 }
 function stateOf({ sample, connection }: RobotState): FleetState {
@@ -52,7 +87,7 @@ function stateOf({ sample, connection }: RobotState): FleetState {
   if (guard.state.link !== "up" || guard.state.trip !== "none") return "attention";
   return sample.moving || sample.step !== "" ? "running" : "idle";
 }
-export function fleetRobotOf(robot: RobotState, use: Use): FleetRobot {
+export function fleetRobotOf(robot: RobotState, use: Use, url: string): FleetRobot {
   const { connection, sample } = robot;
   const state = stateOf(robot);
   const roundTrip_s = connection.link?.roundTrip_s ?? NaN;
@@ -65,7 +100,8 @@ export function fleetRobotOf(robot: RobotState, use: Use): FleetRobot {
     state,
     news: state === "no-link" ? (connection.link?.sentence ?? "") : (sample?.message ?? ""),
     holder: connection.guard.state.holder,
-    use: use.of(robot.id),
+    ...use.of(robot.id),
+    url,
     roundTrip_s: Number.isFinite(roundTrip_s) ? roundTrip_s : null,
     heard_ms: robot.heard_ms,
   };

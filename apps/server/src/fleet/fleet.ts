@@ -30,13 +30,17 @@ export interface Fleet {
 type Sample = FleetBatch["robots"][number]["samples"][number];
 
 /** A server by itself: its own robots are its fleet. */
-export function ownFleet({ states, scheduler }: Pick<StandardContext, "states" | "scheduler">, site = "here"): Fleet {
+export function ownFleet(
+  { states, scheduler, now_ms }: Pick<StandardContext, "states" | "scheduler" | "now_ms">,
+  url: string,
+  site = "here",
+): Fleet {
   const use = new Use();
   const stop = scheduler.every(TICK_S, () => {
-    for (const robot of states.all.values()) use.look(robot);
+    for (const robot of states.all.values()) use.look(robot, now_ms());
   });
   return {
-    robots: () => [...states.all.values()].map(robot => ({ site, ...fleetRobotOf(robot, use) })),
+    robots: () => [...states.all.values()].map(robot => ({ site, ...fleetRobotOf(robot, use, url) })),
     command: () =>
       Promise.resolve({
         kind: "refused",
@@ -50,12 +54,12 @@ export function ownFleet({ states, scheduler }: Pick<StandardContext, "states" |
 }
 
 /** A server among others: tells the cluster of its robots, hears of theirs, and carries out what it is asked to. */
-export async function joinFleet(context: StandardContext, options: NatsOptions): Promise<Fleet> {
+export async function joinFleet(context: StandardContext, options: NatsOptions, url: string): Promise<Fleet> {
   const cluster = await joinCluster(options);
   const { site } = options;
   const server = `${site}-${randomBytes(6).toString("hex")}`;
   const outbox = createOutbox(cluster, context.say);
-  const own = createOwn(context, cluster, site, server, outbox.put);
+  const own = createOwn(context, cluster, { site, server, url }, outbox.put);
   const seen = await hearOthers(context, cluster);
   const endCommands = answerCommands(context, cluster, site);
   return {
@@ -84,10 +88,9 @@ export async function joinFleet(context: StandardContext, options: NatsOptions):
 
 /** Tells of the robots of this server that no other server has. */
 function createOwn(
-  { states, scheduler, say }: StandardContext,
+  { states, scheduler, say, now_ms }: StandardContext,
   { owners }: Cluster,
-  site: string,
-  server: string,
+  { site, server, url }: { readonly site: string; readonly server: string; readonly url: string },
   put: (subject: string, id: string, body: Uint8Array) => void,
 ) {
   const use = new Use();
@@ -144,8 +147,11 @@ function createOwn(
   });
   const tick = (): void => {
     const robots = [...states.all.values()].filter(robot => owned.has(keyOf(robot)));
-    for (const robot of states.all.values()) use.look(robot);
-    const told = robots.map(robot => ({ state: fleetRobotOf(robot, use), samples: samples.get(robot)!.splice(0) }));
+    for (const robot of states.all.values()) use.look(robot, now_ms());
+    const told = robots.map(robot => ({
+      state: fleetRobotOf(robot, use, url),
+      samples: samples.get(robot)!.splice(0),
+    }));
     if (told.length === 0) return;
     const batch: FleetBatch = { server, number: count++, robots: told };
     put(subjectOf("state", site), `${server}.${batch.number}`, text.encode(JSON.stringify(batch)));

@@ -23,6 +23,8 @@ type Routes =
   | "putPerson"
   | "deletePerson";
 export interface PeopleParts {
+  /** The server reaches no real robot. */
+  readonly training: boolean;
   readonly accounts: Accounts;
   readonly sessions: Sessions;
   readonly now_s: () => number;
@@ -46,10 +48,10 @@ const refused = (code: string, sentence: string, hint: string, status = 401): An
   json(refusal(code, sentence, hint), status);
 
 /** A server on which nobody signs in by name. */
-export function withoutPeople(): Pick<Handlers, Routes> {
+export function withoutPeople(training: boolean): Pick<Handlers, Routes> {
   const none = (): Answer =>
     refused("people.none", "Nobody signs in by name here.", "Start the server with --accounts and --data DIR.", 409);
-  const nobody: SessionInfo = { accounts: false, name: null, role: null, rights: {}, passkeys: 0 };
+  const nobody: SessionInfo = { accounts: false, name: null, role: null, rights: {}, passkeys: 0, training };
   return {
     session: () => json(nobody),
     signIn: none,
@@ -66,7 +68,7 @@ export function withoutPeople(): Pick<Handlers, Routes> {
 }
 
 /** What people sign in with, and who may do what. */
-export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts): Pick<Handlers, Routes> {
+export function peopleHandlers({ training, accounts, sessions, now_s, audit }: PeopleParts): Pick<Handlers, Routes> {
   const secrets = passwords();
   const challenges = new Map<string, number>();
   const remember = (challenge: string): void => {
@@ -86,6 +88,7 @@ export function peopleHandlers({ accounts, sessions, now_s, audit }: PeopleParts
     role: account?.role ?? null,
     rights: account?.rights ?? {},
     passkeys: account?.passkeys.length ?? 0,
+    training,
   });
   const me = (call: Pick<Call<never>, "cookies">): Account | undefined => {
     const name = sessions.nameOf(call.cookies);

@@ -14,6 +14,8 @@ export interface StandardsOptions {
   readonly sparkplug?: SparkplugOptions | undefined;
   /** File of addresses that are told what happens. */
   readonly webhooks?: string | undefined;
+  /** File that says which nodes of a PLC's OPC UA server belong to which lines. */
+  readonly plc?: string | undefined;
   /** Address of a collector that takes OTLP over HTTP. */
   readonly otlp?: string | undefined;
 }
@@ -26,7 +28,7 @@ export interface StartedStandards {
 
 /** Starts those that are asked for; each is loaded only then. When one cannot start, none is left running. */
 export async function startStandards(context: StandardContext, options: StandardsOptions): Promise<StartedStandards> {
-  const { opcua, rosbridge, foxglove, modbus, modbusLines, sparkplug, webhooks, otlp } = options;
+  const { opcua, rosbridge, foxglove, modbus, modbusLines, sparkplug, webhooks, otlp, plc } = options;
   const started: StartedStandard[] = [];
   let telemetry: Awaited<ReturnType<typeof startTelemetry>> | undefined;
   const close = async (): Promise<void> => {
@@ -43,6 +45,7 @@ export async function startStandards(context: StandardContext, options: Standard
       started.push(await (await import("./rosbridge/rosbridge.ts")).startRosbridge(context, rosbridge));
     if (sparkplug !== undefined)
       started.push(await (await import("./sparkplug/sparkplug.ts")).startSparkplug(context, sparkplug));
+    if (plc !== undefined) started.push(await (await import("./plc/plc.ts")).startPlc(context, plc));
     if (opcua !== undefined) started.push(await (await import("./opcua/opcua.ts")).startOpcua(context, opcua));
   } catch (problem) {
     await close();

@@ -26,5 +26,9 @@ export const whole = (value: number): string => Math.round(value).toLocaleString
 export const day = (time_ms: number): string =>
   new Date(time_ms).toLocaleDateString(locale, { day: "numeric", month: "short", year: "numeric" });
 
+/** A time of day, for a person: 14:05. */
+export const timeOfDay = (time_ms: number): string =>
+  new Date(time_ms).toLocaleTimeString(locale, { hour: "2-digit", minute: "2-digit" });
+
 /** A day and a time of day, for a person. */
 export const moment = (time_ms: number): string => new Date(time_ms).toLocaleString(locale);

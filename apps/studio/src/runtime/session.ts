@@ -8,7 +8,7 @@ export type Asked<T> =
   | { readonly kind: "answer"; readonly value: T }
   | { readonly kind: "no"; readonly sentence: string };
 
-async function ask<T>(method: string, path: string, body?: unknown): Promise<Asked<T>> {
+export async function ask<T>(method: string, path: string, body?: unknown): Promise<Asked<T>> {
   try {
     const response = await fetch(`/api/v1/${path}`, {
       method,

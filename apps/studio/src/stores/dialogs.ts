@@ -15,9 +15,11 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "people"
+  | "fleet"
   | "shapes"
   | "run-question"
-  | "demonstration";
+  | "demonstration"
+  | "glove";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

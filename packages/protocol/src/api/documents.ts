@@ -130,7 +130,7 @@ export function asyncApiDocument(version: string): Json {
       stream: {
         address: SOCKETS.stream,
         description:
-          "Only looks: no sign of life, nothing to say. `?robot=ID` for one robot, `?rate_Hz=N` for at most so many samples a second.",
+          "Only looks: no sign of life, nothing to say. `?robot=ID` for one robot, `?rate_Hz=N` for at most so many samples a second; with `?messages_per_s=N` each message is an array of what came since the last.",
         messages: refs(looked),
       },
     },

@@ -179,6 +179,7 @@ export const sessionSchema = z.object({
   role: role.nullable(),
   rights,
   passkeys: z.int(),
+  training: z.boolean().describe("A server for training: it opens virtual controllers and reaches no real robot."),
 });
 export const signInBody = z.object({ name: text, password: z.string().min(1).max(200) });
 export const invitationBody = z.object({
@@ -216,6 +217,9 @@ export const fleetSchema = z.object({
       news: z.string(),
       holder: z.string().nullable(),
       use: z.number().describe("Share of the time since its server was started in which it moved, 0 … 1."),
+      use_line: z.array(z.number()).describe("The same for each ten minutes of the last eight hours, the newest last."),
+      since_ms: z.number().describe("Since when it has been in this state, milliseconds since 1970; 0 where unknown."),
+      url: z.string().describe("Where its server is reached from other machines; empty where it is not."),
       roundTrip_s: z.number().nullable(),
       heard_ms: z.number().describe("When its last sample came, milliseconds since 1970."),
     }),

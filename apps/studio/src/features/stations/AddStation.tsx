@@ -7,6 +7,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
+import { sessionStore } from "../../stores/session.ts";
 import { stationStore, type ServerAddress } from "../../stores/stations.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
@@ -33,6 +34,7 @@ function Open() {
   const document = useStore(cellStore, state => state.document);
   const count = useStore(stationStore, state => state.stations.length);
   const server = useStore(stationStore, state => state.server);
+  const training = useStore(sessionStore, state => state.info?.training === true);
   const connected = useStore(connectionStore, state => state.station !== null);
   // First of all the robot that stands in the cell is connected.
   const [brand, setBrand] = useState(
@@ -62,7 +64,7 @@ function Open() {
   const robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
   // A driver that is a process of its own has nothing to show in a page: it is reached through the server.
   const isPlugIn = chosen?.port !== null && chosen !== undefined;
-  const place: ServerAddress = isPlugIn ? "server" : wanted;
+  const place: ServerAddress = isPlugIn ? "server" : training ? "page" : wanted;
   const number = Number(port === "" ? chosen?.port : port);
   const portFits = !isPlugIn || (Number.isInteger(number) && number > 0 && number < 65_536);
   const asked = place === "server" ? (chosen?.data ?? []) : [];
@@ -119,7 +121,7 @@ function Open() {
             disabled={
               busy ||
               robotId === "" ||
-              (place === "server" && (server !== true || host.trim() === "" || !whole || !portFits))
+              (place === "server" && (server !== true || training || host.trim() === "" || !whole || !portFits))
             }
           >
             {busy ? words.stations.connecting : words.stations.addAndConnect}
@@ -175,10 +177,15 @@ function Open() {
             onChange={setPlace}
             options={[
               { value: "page", words: words.stations.here, disabled: isPlugIn },
-              { value: "server", words: words.stations.there, disabled: server !== true },
+              { value: "server", words: words.stations.there, disabled: server !== true || training },
             ]}
           />
         </div>
+        {training && (
+          <p className="small training-lock" role="note">
+            {words.stations.training} {words.stations.trainingHint}
+          </p>
+        )}
         {server === false && (
           <p className="small muted">
             {words.stations.noServer} {words.stations.noServerHint}

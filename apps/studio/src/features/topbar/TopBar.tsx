@@ -1,9 +1,10 @@
-import { Check, Headset, Moon, Redo2, Sun, Undo2, Volume2, VolumeX } from "lucide-react";
+import { Check, Headset, Lock, Moon, Redo2, Sun, Undo2, Volume2, VolumeX } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { commandStore, runCommand } from "../../stores/commands.ts";
 import { headsetStore } from "../../stores/headset.ts";
+import { sessionStore } from "../../stores/session.ts";
 import { showMode, viewStore, type StudioMode } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showKeys } from "../../ui/keys.ts";
@@ -20,7 +21,7 @@ const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"
 const MENU: readonly (readonly string[])[] = [
   ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],
-  ["view.cameras", "view.people", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
+  ["view.cameras", "view.people", "view.fleet", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
 ];
 
 /** A phone has no room for these beside the menu. */
@@ -44,12 +45,26 @@ export function TopBar({ phone }: { phone: boolean }) {
       <div className="topbar-space" />
       {!phone && <Modes />}
       <div className="topbar-space" />
+      <TrainingChip />
       <ControllerChip brief={phone} />
       {!phone && <Override />}
       <StopButton />
       {!phone && <RightEnd />}
     </header>
   );
+}
+
+/** On a server for training no real robot can be reached: said where everybody looks, as long as it is so. */
+function TrainingChip() {
+  const training = useStore(sessionStore, state => state.info?.training === true);
+  return training ? (
+    <Tip words={words.fleet.trainingTip}>
+      <span className="training-chip" role="status">
+        <Lock aria-hidden />
+        {words.fleet.training}
+      </span>
+    </Tip>
+  ) : null;
 }
 
 function Modes() {

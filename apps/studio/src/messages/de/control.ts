@@ -91,6 +91,8 @@ export const controlWords = {
     pendant: "Handgerät und Schaltschrank",
     pendantAlone: "Auf eigener Seite",
     noServer: "Reale Steuerungen werden über den Twincell-Server erreicht.",
+    training: "Dieser Server ist für die Ausbildung: Kein realer Roboter ist erreichbar.",
+    trainingHint: "Virtuelle Steuerungen laufen wie überall.",
     noServerHint: "npx twincell serve starten und die ausgegebene Adresse öffnen.",
     gone: "Diese Steuerung ist nicht mehr da.",
     preview: "Vorausschauen",

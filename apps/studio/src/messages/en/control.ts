@@ -81,6 +81,8 @@ export const controlWords = {
     pendant: "Pendant and cabinet",
     pendantAlone: "On a page of its own",
     noServer: "Real controllers are reached through the Twincell server.",
+    training: "This server is for training: no real robot can be reached.",
+    trainingHint: "Virtual controllers run as everywhere.",
     noServerHint: "Start npx twincell serve and open the address it prints.",
     gone: "This controller is no longer there.",
     preview: "Look ahead",

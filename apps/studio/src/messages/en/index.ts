@@ -4,7 +4,10 @@ import { controlWords } from "./control.ts";
 import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
+import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
+import { glove } from "./glove.ts";
+import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
@@ -27,7 +30,10 @@ export const en = {
   direct,
   editor,
   people: peopleWords,
+  glove,
+  fleet: fleetWords,
   headset,
+  lesson,
   offline,
   own,
   phone,

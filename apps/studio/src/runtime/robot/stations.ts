@@ -478,7 +478,8 @@ function appear(
   const stand = stands.get(id) ?? document!.robot.worldFromBase;
   const station: StationState = {
     id,
-    name: virtual ? shortName(robot) : name,
+    // A name that somebody gave stays; the one that virtual controllers have by themselves is long.
+    name: virtual && name === `Virtual ${robot.name}` ? shortName(robot) : name,
     brand,
     robot: robotId,
     virtual,
