@@ -4,9 +4,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { boxMesh, meshBounds } from "@twincell/core";
-import { importFile, writeStl, type FileSource } from "@twincell/formats";
-import { openDocument, shapeMesh } from "@twincell/project";
+import { boxMesh, fromAxisAngle, meshBounds, pose, robotById, transformMesh, type Vector3 } from "@twincell/core";
+import { importFile, readStl, writeGlb, writeStl, type FileSource, type ImportedPart } from "@twincell/formats";
+import { cellGeometry, openDocument, physicalScene, rescaledObjects, shapeMesh, worldBounds } from "@twincell/project";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
 let folder = "";
@@ -72,6 +72,114 @@ test("import puts the parts of an OBJ into a new cell with names, colours and on
   expect(cell.document.objects[1]!.worldFromObject.position).toEqual([1, 2, 0.5]);
   const { lower, upper } = meshBounds(shapeMesh(cell.document.objects[1]!.shape));
   expect(upper[0] - lower[0]).toBeCloseTo(0.009, 6);
+});
+
+test("T-16 import --robot PATH makes a cell that brings the robot of a file with it; it is checked in that cell", () => {
+  const made = twincell("import", "--robot", "examples/robots/small-arm.json", "-o", at("own.json"));
+  expect([made.code, made.out.trim()]).toEqual([0, ""]);
+  const cell = openDocument(readFileSync(at("own.json"), "utf8"));
+  if (cell.kind !== "opened") throw new Error(cell.kind);
+  expect(cell.document.robot.id).toMatch(/^small_arm_[0-9a-f]{8}$/);
+  const step = {
+    id: "a",
+    type: "move",
+    path: "ptp",
+    target: { q: [0.5, 0, 0, 0, 0.3, 0] },
+    speed: { ratio: 0.5 },
+    blend_m: 0,
+  };
+  const [program] = cell.document.programs;
+  const check = twincell(
+    "check",
+    write("own-program.json", JSON.stringify({ ...program, steps: [step] })),
+    "--cell",
+    at("own.json"),
+    "--json",
+  );
+  expect([check.code, check.err]).toEqual([0, ""]);
+  const bad = JSON.parse(readFileSync(at("own.json"), "utf8")) as { robot: { file: { joints: unknown[] } } };
+  bad.robot.file.joints = [];
+  const refused = twincell("check", at("own-program.json"), "--cell", write("bad.json", JSON.stringify(bad)));
+  expect(refused.code).not.toBe(0);
+  expect(refused.err).toContain("robot.file.joints: A robot has 1 to 32 joints; here it has 0.");
+});
+
+const ROOM: readonly ImportedPart[] = [
+  ["floor", [6, 5, 0.1], [0, 0, -0.05], "#8a8f94"],
+  ["wall north", [6, 0.1, 3], [0, 2.55, 1.5], "#e6e9eb"],
+  ["wall west", [0.1, 5, 3], [-3.05, 0, 1.5], "#e6e9eb"],
+  ["bench", [1.2, 0.6, 0.8], [2, 1.5, 0.4], "#c8a26c"],
+].map(([name, size, at, color]) => ({
+  name: name as string,
+  path: ["laboratory"],
+  color: color as string,
+  mesh: transformMesh(boxMesh(size as Vector3), pose(at as Vector3)),
+}));
+
+test("T-62 the robot stands inside a laboratory: a room of 6 × 5 × 3 m comes at scale around it, each part by its name, and is checked against", () => {
+  const room = write("room.glb", writeGlb(ROOM));
+  expect(twincell("import", room, "--robot", "ur10e", "-o", at("lab.json"), "--at", "0,0,-0.1").code).toBe(0);
+  const cell = openDocument(readFileSync(at("lab.json"), "utf8"));
+  if (cell.kind !== "opened") throw new Error(cell.kind);
+  expect(cell.document.objects.map(({ name }) => name)).toEqual(ROOM.map(({ name }) => name));
+  const boxes = cell.document.objects.map(({ shape, worldFromObject }) => worldBounds(shape, worldFromObject));
+  const side = (k: 0 | 1 | 2): number =>
+    Math.max(...boxes.map(({ upper }) => upper[k])) - Math.min(...boxes.map(({ lower }) => lower[k]));
+  expect([side(0), side(1), side(2)].map(value => value.toFixed(2))).toEqual(["6.10", "5.10", "3.10"]);
+  // Stretched to the north the arm meets the wall that stands 2.5 m away only where it is brought there.
+  const step = (q: number[]) => ({
+    id: `q${q[0]}`,
+    type: "move",
+    path: "ptp",
+    target: { q },
+    speed: { ratio: 0.5 },
+    blend_m: 0,
+  });
+  const judged = (file: string, q: number[]): number => {
+    const [program] = cell.document.programs;
+    const path = write("lab-program.json", JSON.stringify({ ...program, steps: [step(q)] }));
+    return twincell("check", path, "--cell", file).code;
+  };
+  const standing = [0, -1.6, 1.2, 0, 1.5, 0];
+  expect(judged(at("lab.json"), standing)).toBe(0);
+  const near = JSON.parse(readFileSync(at("lab.json"), "utf8")) as { robot: { worldFromBase: { position: number[] } } };
+  near.robot.worldFromBase.position = [0, 2.5, 0];
+  expect(judged(write("near.json", JSON.stringify(near)), standing)).toBe(1);
+});
+
+test("M-05, M-06, M-08 one STL is taught against and simulated as the same facets, moved, turned and scaled, and comes back as it was", () => {
+  const source = boxMesh([40, 30, 20]);
+  const stl = write("piece.stl", writeStl(source));
+  expect(twincell("import", stl, "-o", at("piece.json"), "--unit", "mm", "--at", "0.5,0.2,0.3").code).toBe(0);
+  const cell = openDocument(readFileSync(at("piece.json"), "utf8"));
+  if (cell.kind !== "opened") throw new Error(cell.kind);
+  const [piece] = cell.document.objects;
+  const robot = robotById(cell.document.robot.id)!;
+  const turned = {
+    ...rescaledObjects([piece!], 25.4)[0]!,
+    worldFromObject: pose<"world", "object">([1, 2, 3], fromAxisAngle([0, 0, 1], Math.PI / 2)),
+  };
+  for (const [object, factor] of [
+    [piece!, 1],
+    [turned, 25.4],
+  ] as const) {
+    const document = { ...cell.document, objects: [object] };
+    const taught = cellGeometry(document, []).objects[0]!;
+    const simulated = physicalScene(document, robot).objects[0]!;
+    expect(taught.mesh.indices.length / 3).toBe(12);
+    expect(simulated.shape).toEqual({ kind: "mesh", mesh: taught.mesh });
+    const back = readStl(writeStl(taught.mesh));
+    if (back.kind !== "read") throw new Error(back.sentence);
+    const { lower, upper } = meshBounds(back.mesh);
+    [0.04, 0.03, 0.02].forEach((side, k) => expect(upper[k]! - lower[k]!).toBeCloseTo(side * factor, 5));
+  }
+  // Turned by 90° its length lies along y, where it was moved to.
+  const box = worldBounds(turned.shape, turned.worldFromObject);
+  expect(box.upper[1] - box.lower[1]).toBeCloseTo(0.04 * 25.4, 5);
+  expect((box.upper[1] + box.lower[1]) / 2).toBeCloseTo(2, 5);
+  // A unit that is in doubt is said, whatever the numbers are: 40 mm could be 40 m.
+  const doubt = twincell("import", write("hall.stl", writeStl(boxMesh([400, 300, 20]))), "-o", at("doubt.json"));
+  expect(JSON.parse(doubt.out)).toMatchObject({ unit: { metresPerUnit: 0.001 } });
 });
 
 test("T-49: mesh writes a GLB with the triangles asked for and prints faces, materials, bounds and both deviations in metres", () => {

@@ -122,7 +122,7 @@ test("points are recorded where the robot stands, touched up, and taken back one
   expect(problems).toEqual([]);
 });
 
-test("the ring at the tool is dragged with the mouse; the tool follows and lets go where the mouse does", async () => {
+test("L-28 L-30 the ring at the tool is dragged with the mouse; the tool follows, lets go where the mouse does, and keeps what is locked", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await stand(page, [0.6, 0, 0.8]);
@@ -147,5 +147,19 @@ test("the ring at the tool is dragged with the mouse; the tool follows and lets 
   await page.mouse.move(at.x + 120, at.y + 80);
   await frames(page, 5);
   expect(await tcp(page)).toEqual(after);
+  // Its height locked, the tool goes to the side only.
+  await page.getByRole("button", { name: "Lock Z", exact: true }).click();
+  const there = await page.evaluate(point => window.twincellScene!.project(point), after);
+  await page.mouse.move(there.x, there.y);
+  await frames(page, 3);
+  await page.mouse.down();
+  for (let i = 1; i <= 8; i++) {
+    await page.mouse.move(there.x - 4 * i, there.y - 3 * i);
+    await frames(page, 2);
+  }
+  await page.mouse.up();
+  const aside = (await tcp(page)) as Vector3;
+  expect(aside[2]).toBeCloseTo(after[2], 6);
+  expect(Math.hypot(aside[0] - after[0], aside[1] - after[1])).toBeGreaterThan(0.01);
   expect(problems).toEqual([]);
 });

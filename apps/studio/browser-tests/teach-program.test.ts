@@ -1,3 +1,4 @@
+import { readFile } from "node:fs/promises";
 import { palletSlots, unrolled, type Program } from "@twincell/core";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -69,5 +70,63 @@ test("M-54 T-70 the palletising job is taught from an empty program: three corne
   await page.getByRole("searchbox", { name: "Search the steps" }).fill("output");
   await page.getByText("1 step is found.").waitFor();
   await page.screenshot({ path: picture("editor-search") });
+  expect(problems).toEqual([]);
+});
+
+test("L-35 M-61 M-62 L-64 the tool's speed stands under its blocks, and a lesson is taken twice, with a report", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("file.new");
+  });
+  const record = async (q: readonly number[]): Promise<void> => {
+    await stand(page, q);
+    await page.getByRole("button", { name: "PTP", exact: true }).first().click();
+  };
+  const judged = (): Promise<unknown> =>
+    page.waitForFunction(() => {
+      const { stale, plan } = window.twincell.stores.playStore.getState();
+      return !stale && plan !== null;
+    });
+  const BESIDE = OVER.with(0, -0.4);
+
+  await record(OVER);
+  await record(BESIDE);
+  await judged();
+  await page.getByRole("button", { name: "Plots" }).click();
+  await page.getByRole("radio", { name: "TCP speed" }).click();
+  await page.evaluate(() => {
+    window.twincell.seek(window.twincell.stores.playStore.getState().plan!.duration_s * 0.75);
+  });
+  // At the playhead, with its unit, without a pointer in the plot.
+  await page
+    .locator(".u-legend .u-series", { hasText: "TCP speed" })
+    .filter({ hasText: /\d mm\/s/ })
+    .waitFor();
+  const [plot, track] = [(await page.locator(".u-over").boundingBox())!, (await page.locator(".track").boundingBox())!];
+  expect(Math.abs(plot.x - track.x)).toBeLessThan(1.5);
+  expect(Math.abs(plot.width - track.width)).toBeLessThan(1.5);
+  await page.screenshot({ path: picture("tcp-speed") });
+  await page.getByRole("button", { name: "Plots" }).click();
+
+  await page.getByRole("button", { name: /^Program · / }).click();
+  await page.getByRole("menuitem", { name: "Make a lesson of this program" }).click();
+  const card = page.getByRole("complementary", { name: "Lesson" });
+  await card.getByText("place 1").waitFor();
+  await record(OVER);
+  await judged();
+  await card.getByText("1 of 2 places").waitFor();
+  await page.screenshot({ path: picture("lesson") });
+  await card.getByRole("button", { name: "Hand in" }).click();
+  await card.getByText("A place is missed.").waitFor();
+  await record(BESIDE);
+  await judged();
+  await card.getByRole("button", { name: "Hand in" }).click();
+  await card.getByText(/Attempt 2: \d+ points · passed/).waitFor();
+  await page.screenshot({ path: picture("lesson-attempts") });
+  const saved = page.waitForEvent("download");
+  await card.getByRole("button", { name: "Report" }).click();
+  expect(await readFile((await (await saved).path())!, "utf8")).toContain("Attempt 2 is the best.");
   expect(problems).toEqual([]);
 });

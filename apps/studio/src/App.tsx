@@ -11,6 +11,8 @@ import { ControlsDialog } from "./features/input/ControlsDialog.tsx";
 import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
+import { LessonCard } from "./features/lesson/LessonCard.tsx";
+import { LessonFile } from "./features/lesson/LessonFile.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
 import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
@@ -30,6 +32,7 @@ import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
 import { cellStore } from "./stores/cell.ts";
 import { textOf, theProgram } from "./stores/document.ts";
+import { lessonStore } from "./stores/lesson.ts";
 import { findStep } from "./stores/program.ts";
 import { selectionStore, type Thing } from "./stores/selection.ts";
 import { textStore } from "./stores/text.ts";
@@ -46,9 +49,12 @@ const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
 const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
+const GloveDialog = lazy(() => import("./features/glove/GloveDialog.tsx"));
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
+const RobotQuestion = lazy(() => import("./features/robots/RobotQuestion.tsx"));
+const DhTable = lazy(() => import("./features/robots/DhTable.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
 const Fleet = lazy(() => import("./features/fleet/Fleet.tsx"));
@@ -69,6 +75,7 @@ export function App() {
   const text = useStore(cellStore, state => textOf(state.document));
   const teaching = useStore(viewStore, state => state.mode === "teach");
   const building = useStore(viewStore, state => state.mode === "cell");
+  const learning = useStore(lessonStore, state => state.lesson !== null);
   const layout = useStore(textStore, state => state.layout);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
@@ -145,7 +152,8 @@ export function App() {
           <Suspense>
             <VideoPanels />
           </Suspense>
-          {!phone && !building && <Coach />}
+          {!phone && !building && !learning && <Coach />}
+          <LessonCard />
           <Welcome />
           <SignIn />
           <Notices />
@@ -178,6 +186,8 @@ export function App() {
         </Suspense>
         <Suspense>
           <Robots />
+          <RobotQuestion />
+          <DhTable />
         </Suspense>
         <Suspense>
           <AddStation />
@@ -195,11 +205,15 @@ export function App() {
           <DemonstrationDialog />
         </Suspense>
         <Suspense>
+          <GloveDialog />
+        </Suspense>
+        <Suspense>
           <Cameras />
           <People />
           <Fleet />
         </Suspense>
         <Files />
+        <LessonFile />
         <Shortcuts />
         <GamepadWatch />
       </div>

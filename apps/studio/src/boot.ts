@@ -20,9 +20,11 @@ import { startTexts } from "./runtime/text-program.ts";
 import { cellStore } from "./stores/cell.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
 import { loadCatalogue } from "./stores/catalogue.ts";
-import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
+import type { KeyValueStore } from "./stores/keeper.ts";
+import { CellLibrary, setLibrary } from "./stores/library.ts";
 import { notify } from "./stores/notices.ts";
 import { keepPresent, onKeepFacts } from "./stores/opening.ts";
+import { loadRobotFiles } from "./stores/own-robots.ts";
 import { keepPreferences } from "./stores/preferences.ts";
 import { words } from "./messages/index.ts";
 import { presentFacts } from "./runtime/present-facts.ts";
@@ -74,6 +76,10 @@ export function boot(): void {
     // Without a library the cell that was open is still read.
     .catch((problem: unknown) =>
       notify("warn", words.file.noLibrary(problem instanceof Error ? problem.message : String(problem))),
+    )
+    .then(() => loadRobotFiles(browserStore))
+    .catch((problem: unknown) =>
+      notify("warn", words.own.notLoaded(problem instanceof Error ? problem.message : String(problem))),
     )
     .then(() => openKept(browserStore, library))
     .then(() => import("./runtime/robot/cell-control.ts"))

@@ -17,6 +17,7 @@ import { gamepadStore } from "./stores/gamepad.ts";
 import { headsetStore } from "./stores/headset.ts";
 import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
+import { lessonStore } from "./stores/lesson.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { offlineStore } from "./stores/offline.ts";
@@ -53,6 +54,7 @@ const twincell = {
     historyStore,
     jogStore,
     languageStore,
+    lessonStore,
     noticeStore,
     offlineStore,
     physicsStore,

@@ -1598,6 +1598,7 @@ export type StreamEvent =
         readonly robot: string;
         readonly virtual: boolean;
         readonly watchdog: string;
+        readonly robotFile?: unknown;
       }[];
     }
   | {
@@ -1608,6 +1609,7 @@ export type StreamEvent =
       readonly robot: string;
       readonly virtual: boolean;
       readonly watchdog: string;
+      readonly robotFile?: unknown;
     }
   | {
       readonly type: "closed";

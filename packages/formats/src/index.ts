@@ -18,3 +18,4 @@ export * from "./urdf/write.ts";
 export * from "./xacro/index.ts";
 export * from "./dh/index.ts";
 export * from "./import/index.ts";
+export * from "./robot/index.ts";

@@ -85,6 +85,14 @@ export interface CellErrorsRecord {
   readonly twin_m?: number;
 }
 
+/** The robot of a cell: one of the library or catalogue, or one that the cell brings with it. */
+export interface RobotRecord {
+  readonly id: string;
+  readonly worldFromBase: Pose<"world", "base">;
+  /** The robot file of a robot that is in no library; its id is the one above. */
+  readonly file?: Readonly<Record<string, unknown>> & { readonly id: string };
+}
+
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
@@ -92,7 +100,7 @@ export interface CellDocument {
   readonly name: string;
   /** Made for people who learn: tasks to do, hints, nothing that drives a real robot. */
   readonly training?: true;
-  readonly robot: { readonly id: string; readonly worldFromBase: Pose<"world", "base"> };
+  readonly robot: RobotRecord;
   /** What the cell is not known better than; counted in every distance that is checked or guarded. */
   readonly errors?: CellErrorsRecord;
   readonly tools: readonly ToolRecord[];

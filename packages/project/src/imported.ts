@@ -1,6 +1,5 @@
-import { meshBounds, type TriangleMesh, type Vector3 } from "@twincell/core";
+import { encodeMesh, meshBounds, type TriangleMesh, type Vector3 } from "@twincell/core";
 import type { CellDocument, ObjectRecord } from "./document.ts";
-import { encodeMesh } from "./mesh/codec.ts";
 import { shapeMesh } from "./mesh/shape.ts";
 
 /** A part of an imported file as a cell takes it: metres, z up, where the file puts it. */

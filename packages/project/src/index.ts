@@ -14,4 +14,6 @@ export * from "./mesh/index.ts";
 export * from "./imported.ts";
 export * from "./example/index.ts";
 export * from "./parts/index.ts";
+export * from "./tools.ts";
+export * from "./models.ts";
 export * from "./placing/index.ts";

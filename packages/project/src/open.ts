@@ -1,7 +1,7 @@
-import { parseProgram, robotById } from "@twincell/core";
+import { addOwnRobot, parseProgram, publishedRobot, robotById, robotOfFile } from "@twincell/core";
 import type { z } from "zod";
 import { followObjects } from "./attach.ts";
-import type { CellDocument, CellProgram } from "./document.ts";
+import type { CellDocument, CellProgram, RobotRecord } from "./document.ts";
 import { cellSchema, textProgramSchema } from "./schema.ts";
 import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 import { NEWEST, lift } from "./versions.ts";
@@ -59,6 +59,8 @@ export function readDocument(value: unknown): Opened {
 function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[]): Opened {
   const why: string[] = [];
   const programs: CellProgram[] = [];
+  // First, since programs are read by the joints of their robot.
+  why.push(...knowOwnRobot(cell.robot));
   for (const [i, source] of cell.programs.entries()) {
     if (isRecord(source) && source.format === TEXT_PROGRAM_FORMAT) {
       const read = textProgramSchema.safeParse(source);
@@ -73,7 +75,7 @@ function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[
         ...answer.faults.map(fault => `programs[${i}]${fault.path === "" ? "" : `.${fault.path}`}: ${fault.sentence}`),
       );
   }
-  if (robotById(cell.robot.id) === undefined)
+  if (why.length === 0 && robotById(cell.robot.id) === undefined)
     why.push(`robot.id: the library has no robot called ${shown(cell.robot.id)}.`);
   why.push(
     ...twice(
@@ -110,6 +112,23 @@ function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[
   }
   if (why.length > 0) return { kind: "not-a-cell", why: why.slice(0, MOST_REASONS) };
   return { kind: "opened", document: followObjects({ ...cell, programs }), lifted };
+}
+
+/**
+ * Makes the robot that a cell brings with it known to `robotById`. Says what is wrong with it, one sentence each with
+ * its place; nothing where the cell's robot is one of the library.
+ */
+export function knowOwnRobot({ id, file }: RobotRecord): string[] {
+  if (file === undefined) return [];
+  const answer = robotOfFile(file);
+  if (answer.kind === "not-a-robot")
+    return answer.faults.map(fault => `robot.file${fault.path === "" ? "" : `.${fault.path}`}: ${fault.sentence}`);
+  if (answer.robot.id !== id)
+    return [`robot.file.id: the cell's robot is ${shown(id)}; the file in it is of ${shown(answer.robot.id)}.`];
+  if (publishedRobot(id) !== undefined)
+    return [`robot.file.id: ${shown(id)} is a robot of the library; a robot from a file has another id.`];
+  if (robotById(id) !== answer.robot) addOwnRobot(answer.robot);
+  return [];
 }
 
 function twice(list: string, key: string, names: readonly string[]): string[] {

@@ -1,6 +1,5 @@
 import { z } from "zod";
-import type { Pose } from "@twincell/core";
-import { decodeMesh } from "./mesh/codec.ts";
+import { decodeMesh, ROBOT_FORMAT, type Pose } from "@twincell/core";
 import { partById } from "./parts/index.ts";
 import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 
@@ -167,7 +166,12 @@ export const cellSchema = z.strictObject({
   version: z.literal(2),
   name: z.string(),
   training: yes,
-  robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
+  robot: z.strictObject({
+    id: text,
+    worldFromBase: poseOf<"world", "base">(),
+    /** A robot that is in no library, as its robot file (docs/robot.schema.json). */
+    file: z.exactOptional(z.looseObject({ format: z.literal(ROBOT_FORMAT), id: text })),
+  }),
   errors: z.exactOptional(z.strictObject({ registration_m: error_m, twin_m: error_m })),
   tools: z.array(
     z.strictObject({

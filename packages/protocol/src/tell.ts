@@ -26,6 +26,8 @@ const stationWords = z.object({
   robot: text,
   virtual: z.boolean(),
   watchdog: text,
+  /** The robot file of a robot that is in no library, without its meshes. */
+  robotFile: z.exactOptional(z.unknown()),
 });
 
 const names = z.array(text).max(64);

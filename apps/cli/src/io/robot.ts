@@ -1,3 +1,4 @@
+import { existsSync } from "node:fs";
 import {
   catalogueRobots,
   compose,
@@ -7,13 +8,16 @@ import {
   pose,
   robotById,
   robotFromArm,
+  ROBOT_FORMAT,
   transformMesh,
   type LinkSolid,
   type Pose,
   type Robot,
   type SerialArm,
 } from "@twincell/core";
+import { openDocument } from "@twincell/project";
 import type { Given } from "./arguments.ts";
+import { readText } from "./files.ts";
 import { isRobotPath, robotFromFile } from "./robot-file.ts";
 import { UseFault } from "./usage.ts";
 
@@ -75,6 +79,7 @@ export async function programRobot(options: Given): Promise<RobotToRun | undefin
   if (options.text("robot") === undefined) {
     for (const name of ["base", "tip"])
       if (options.text(name) !== undefined) throw new UseFault(`--${name} is given without --robot.`);
+    await knowRobotOfCell(options.text("cell"));
     return undefined;
   }
   const { robot, baseFromRoot, solids } = await robotOf(options);
@@ -95,6 +100,17 @@ export async function programRobot(options: Given): Promise<RobotToRun | undefin
     }),
     solids: said,
   };
+}
+
+/**
+ * A cell may bring the robot that the program is for: it is known before the program is read.
+ */
+async function knowRobotOfCell(path: string | undefined): Promise<void> {
+  if (path === undefined || !existsSync(path)) return;
+  const text = await readText(path);
+  if (!text.includes(ROBOT_FORMAT)) return;
+  const answer = openDocument(text);
+  if (answer.kind === "not-a-cell") throw new UseFault(`${path}: ${answer.why[0] ?? "This is not a saved cell."}`);
 }
 
 function movedBase(arm: SerialArm, baseFromRoot: Pose): SerialArm {

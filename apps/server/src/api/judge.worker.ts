@@ -29,6 +29,9 @@ interface Given {
   readonly cell: CellDocument | undefined;
 }
 function read({ program: source, model, cell: saved }: JudgeRequest): Given | JudgeAnswer {
+  // First: a cell may bring its robot with it.
+  const opened =
+    saved === undefined ? undefined : openDocument(typeof saved === "string" ? saved : JSON.stringify(saved));
   const parsed = parseProgram(source);
   if (parsed.kind !== "program") {
     const [first] = parsed.faults;
@@ -51,8 +54,7 @@ function read({ program: source, model, cell: saved }: JudgeRequest): Given | Ju
         "Give one for each joint.",
       );
   }
-  if (saved === undefined) return { program: parsed.program, robot, cell: undefined };
-  const opened = openDocument(typeof saved === "string" ? saved : JSON.stringify(saved));
+  if (opened === undefined) return { program: parsed.program, robot, cell: undefined };
   if (opened.kind === "opened") return { program: parsed.program, robot, cell: opened.document };
   return opened.kind === "too-new"
     ? refused(

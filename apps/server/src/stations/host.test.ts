@@ -3,6 +3,9 @@ import {
   emptyProgram,
   linkSolids,
   manualScheduler,
+  ownRobotFile,
+  parseRobot,
+  pose,
   robotById,
   type CommandOutcome,
   type ManualScheduler,
@@ -12,7 +15,7 @@ import {
 } from "@twincell/core";
 import { DRIVER_KINDS } from "@twincell/controllers";
 import { createClient, write, type Client, type Request, type ConnectionEvent, type EventOf } from "@twincell/protocol";
-import { cellGeometry, edgeTraceCell } from "@twincell/project";
+import { cellGeometry, edgeTraceCell, emptyCell } from "@twincell/project";
 import { afterEach, describe, expect, test } from "vitest";
 import { stationHost } from "./host.ts";
 
@@ -473,6 +476,26 @@ describe("a host of stations", () => {
       expect(told.length).toBe(1);
     }
     expect(host.stations).toEqual([]);
+  });
+
+  test("T-16 a robot that is in no library comes with its cell: it is driven on a running server, and others are told its file", async () => {
+    const { scheduler, told, join } = bench();
+    const ur = robotById("ur10e")!;
+    const file = ownRobotFile({ ...ur, id: "our_arm", name: "Our arm" });
+    const cell = { ...emptyCell(file.id), robot: { id: file.id, worldFromBase: pose(), file } };
+    const { client } = join("you");
+    const asked = (request: Request) => answered(scheduler, client, "own", client.ask(request));
+    const open: Request = { type: "open", station: "own", brand: "ur", robot: file.id };
+    const unknown = await asked(open);
+    expect(unknown.kind === "refused" && unknown.why.sentence).toContain(file.id);
+    expect(await asked({ ...open, cell })).toEqual({ kind: "done" });
+    expect(await asked({ type: "take", station: "own" })).toEqual({ kind: "done" });
+    expect(await asked({ type: "connect", station: "own" })).toEqual({ kind: "done" });
+    expect(await asked({ type: "run", station: "own", program: program(file.id), asText: true })).toEqual({
+      kind: "done",
+    });
+    const opened = told.find(message => message.type === "opened");
+    expect(parseRobot(opened?.robotFile)).toMatchObject({ kind: "robot", robot: { id: file.id, name: "Our arm" } });
   });
 
   test("a message over no line comes back in no time", async () => {

@@ -8,7 +8,7 @@ import {
 } from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { readConnectionCell } from "@twincell/project";
+import { readConnectionCell, readDocument } from "@twincell/project";
 import {
   createRobotServer,
   PLUG_IN,
@@ -81,6 +81,8 @@ export function stationHost(
     })),
     together: (members, onStarted) => startSynchronized(members, scheduler, onStarted),
     async open(ask: RequestOf<"open">): Promise<OpenedConnection> {
+      // A robot that is in no library comes with its cell.
+      if (robotById(ask.robot) === undefined && ask.cell !== undefined) readDocument(ask.cell);
       const robot = robotById(ask.robot);
       const brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : driverKindById(ask.brand);
       const dialect = brand && dialectById(brand.dialect);

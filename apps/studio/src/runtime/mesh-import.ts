@@ -4,6 +4,8 @@ import { cellStore } from "../stores/cell.ts";
 import { closeDialog, openDialog } from "../stores/dialogs.ts";
 import { commit } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
+import { takeRobotFile } from "./own-robot.ts";
+import { knowRobotFile } from "../stores/own-robots.ts";
 import { select } from "../stores/selection.ts";
 import { keepCard, shapeStore, type ShapeCard } from "../stores/shapes.ts";
 import { showNumber } from "../ui/expression.ts";
@@ -43,18 +45,25 @@ async function ask(request: ShapeRequest, transfer: readonly ArrayBuffer[]): Pro
  * Reads shapes, robot descriptions and archives of them away from the page, puts their parts into the cell and shows
  * the report.
  */
-export async function importShapes(files: readonly FileAt[]): Promise<void> {
+export async function importShapes(files: readonly FileAt[], robots = true): Promise<void> {
   const name = files[0]?.file.name ?? "";
-  shapeStore.setState({ busy: { file: name, what: "reading" }, shown: null });
+  asked = files;
+  shapeStore.setState({ busy: { file: name, what: "reading" }, robot: null, shown: null });
   openDialog("shapes");
   const read = await Promise.all(
     files.map(async ({ path, file }) => ({ path, bytes: new Uint8Array(await file.arrayBuffer()) })),
   );
   const taken = cellStore.getState().document?.objects.map(({ id }) => id) ?? [];
   const answer = await ask(
-    { kind: "import", files: read, taken },
+    { kind: "import", files: read, taken, robots },
     read.map(({ bytes }) => bytes.buffer),
   );
+  if (answer?.kind === "robot") {
+    shapeStore.setState({ robot: answer });
+    knowRobotFile(answer.file);
+    openDialog("own-robot");
+    return;
+  }
   if (answer?.kind !== "imported") {
     closeDialog();
     if (answer === null) notify("info", words.shapes.canceled(name));
@@ -70,6 +79,20 @@ export async function importShapes(files: readonly FileAt[]): Promise<void> {
   const triangles = answer.files.reduce((sum, { report }) => sum + report.triangles, 0);
   const isDoubtful = answer.files.some(({ unit }) => unit.certainty === "doubtful");
   notify(isDoubtful ? "warn" : "done", words.shapes.added(name, objects.length, triangles));
+}
+
+/** What the robot that is asked about was read from. */
+let asked: readonly FileAt[] = [];
+
+/** The links of the robot that is asked about become parts that stand in the cell. */
+export const importAsParts = (): Promise<void> => importShapes(asked, false);
+
+/** The robot that is asked about becomes that of the cell, and is kept in this browser for others. */
+export function takeRobot(): void {
+  const { robot } = shapeStore.getState();
+  closeDialog();
+  shapeStore.setState({ robot: null });
+  if (robot) void takeRobotFile(robot.file);
 }
 
 const objectsOf = (file: string): readonly ObjectRecord[] => {

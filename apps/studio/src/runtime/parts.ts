@@ -1,9 +1,20 @@
-import { partById, partObject, worldBounds, type CellDocument, type PartNumbers } from "@twincell/project";
+import {
+  freeToolName,
+  partById,
+  partObject,
+  toolOfPart,
+  withNewTool,
+  worldBounds,
+  type CellDocument,
+  type PartKind,
+  type PartNumbers,
+} from "@twincell/project";
 import { pose, type Vector3 } from "@twincell/core";
 import { words } from "../messages/index.ts";
 import { partName } from "../messages/phrases.ts";
 import { cellStore } from "../stores/cell.ts";
 import { commit } from "../stores/document.ts";
+import { notify } from "../stores/notices.ts";
 import { select } from "../stores/selection.ts";
 
 /** Where a part comes when no place is shown: beside what stands there already, never into it. */
@@ -17,6 +28,20 @@ function freePlace(document: CellDocument): Vector3 {
   return [x_m, 0, 0];
 }
 
+/** A tool of the library comes to the flange; what was taught keeps its tool until that is exchanged. */
+function mountTool(kind: PartKind, document: CellDocument): string | null {
+  const name = freeToolName(document, partName(kind.id));
+  const tool = toolOfPart(kind, name);
+  if (!tool || !commit(words.undo.place(name), before => withNewTool(before, tool))) return null;
+  select({ kind: "tool" });
+  notify(
+    "done",
+    words.tools.mounted(name),
+    document.tool === "flange" ? undefined : words.tools.mountedHint(document.tool),
+  );
+  return name;
+}
+
 /**
  * Puts a part of the library into the cell, standing on what is at that place, and selects it.
  *
@@ -27,6 +52,7 @@ export function placePart(part: string, at_m?: Vector3, numbers: PartNumbers = {
   const kind = partById(part);
   const { document } = cellStore.getState();
   if (!kind || !document) return null;
+  if (kind.tool !== undefined && at_m === undefined) return mountTool(kind, document);
   const name = partName(part);
   const names = new Set(document.objects.map(object => object.name));
   const ids = new Set(document.objects.map(object => object.id));

@@ -1,3 +1,4 @@
+import { withRobots } from "./hire.ts";
 import type { CellDocument, TextProgram } from "@twincell/project";
 import { withSelectedText } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
@@ -19,7 +20,7 @@ export interface TextReader {
   listen(hear: (message: FromTextWorker) => void): void;
 }
 function workerReader(): TextReader {
-  const worker = new Worker(new URL("../workers/text.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(new Worker(new URL("../workers/text.worker.ts", import.meta.url), { type: "module" }));
   return {
     post: message => worker.postMessage(message),
     listen: hear => {

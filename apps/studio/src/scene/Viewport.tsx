@@ -22,6 +22,7 @@ import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
 import { PartDrop } from "./objects/part-drop.tsx";
 import { ObjectView } from "./objects/object-view.tsx";
+import { LessonView } from "./path/lesson-view.tsx";
 import { PathView } from "./path/path-view.tsx";
 import { PastView } from "./robot/past-view.tsx";
 import { DemonstrationView } from "./path/demonstration-view.tsx";
@@ -141,6 +142,7 @@ export function Viewport() {
             <PastView />
             <OverlayView theme={colours} />
             <DemonstrationView theme={colours} />
+            <LessonView theme={colours} />
             <EdgeView theme={colours} />
             <TcpHandle
               interaction={interaction}

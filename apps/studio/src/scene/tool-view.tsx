@@ -1,10 +1,11 @@
 import { compose, identity, type Pose } from "@twincell/core";
-import type { ToolRecord } from "@twincell/project";
+import type { Shape, ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { BufferAttribute, type BufferGeometry, Color, type Group } from "three";
 import { shownRobot } from "../runtime/robot/drawn-robots.ts";
 import { Fingers } from "./physical/fingers.tsx";
+import { partGeometries, partMaterial } from "./objects/part-geometry.ts";
 import { shapeGeometry } from "./objects/shape-geometry.ts";
 import { paintTouching } from "./paint.ts";
 import { raycastByTree } from "./pick/raycast.ts";
@@ -42,6 +43,27 @@ function Wire({ tool, from_m }: { readonly tool: ToolRecord; readonly from_m: nu
   );
 }
 
+/** A tool of the library in its own materials. */
+function PartTool({ shape }: { readonly shape: Extract<Shape, { kind: "part" }> }) {
+  const pieces = useMemo(() => partGeometries(shape), [shape]);
+  useEffect(
+    () => () => {
+      for (const { geometry } of pieces) geometry.dispose();
+    },
+    [pieces],
+  );
+  return pieces.map(({ material, geometry }) => (
+    <mesh
+      key={material}
+      geometry={geometry}
+      material={partMaterial(material)}
+      castShadow
+      receiveShadow
+      raycast={raycastByTree}
+    />
+  ));
+}
+
 /** The tool in use, carried by the flange. */
 export function ToolView({
   tool,
@@ -68,9 +90,10 @@ export function ToolView({
   }, -10);
   return (
     <group ref={group} name="tool" matrixAutoUpdate={false} userData={{ thing: { kind: "tool" } }}>
-      {tool.shape && <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />}
-      {tool.gripper && <Fingers tool={tool} gripper={tool.gripper} />}
-      {geometry && (
+      {tool.shape && tool.shape.kind !== "part" && <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />}
+      {tool.gripper && tool.shape?.kind !== "part" && <Fingers tool={tool} gripper={tool.gripper} />}
+      {tool.shape?.kind === "part" && <PartTool shape={tool.shape} />}
+      {geometry && tool.shape?.kind !== "part" && (
         <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}>
           <meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} />
         </mesh>

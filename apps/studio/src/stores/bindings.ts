@@ -6,10 +6,13 @@ export type AxisName = (typeof AXIS_NAMES)[number];
 export type HeldAction = `${AxisName}${"+" | "-"}`;
 export type PressedAction = "aid-next" | "aid-previous" | "record" | "ready" | "camera";
 /** "turn-back": held first, the turning buttons turn the other way. "tilt": how far pressed is how far tilted.
- * "edit": held while a point is taught again. */
-export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt" | "edit";
+ * "edit": held while a point is taught again. "grip": the gripper is closed while it is held. */
+export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt" | "edit" | "grip";
 /** "x": the stick's coordinate; a leading "-" turns it round. */
-export type StickAction = AxisName | `-${AxisName}`;
+export type StickAction = AxisName | `-${AxisName}` | CameraAction;
+/** The stick turns the view about what is looked at. */
+export type CameraAction = "camera-x" | "camera-y";
+export const isCamera = (action: StickAction): action is CameraAction => action === "camera-x" || action === "camera-y";
 
 export const PRESSED_ACTIONS: readonly HeldAction[] = AXIS_NAMES.flatMap(axis => [
   `${axis}+` as const,
@@ -25,8 +28,13 @@ export const PAD_ACTIONS: readonly PadAction[] = [
   "camera",
   "tilt",
   "edit",
+  "grip",
 ];
-export const STICK_ACTIONS: readonly StickAction[] = AXIS_NAMES.flatMap(axis => [axis, `-${axis}` as const]);
+export const STICK_ACTIONS: readonly StickAction[] = [
+  ...AXIS_NAMES.flatMap(axis => [axis, `-${axis}` as const]),
+  "camera-x",
+  "camera-y",
+];
 
 /** Coordinate and direction of a held action. */
 export function axisOf(action: HeldAction): { readonly axis: number; readonly sign: 1 | -1 } {
@@ -35,7 +43,10 @@ export function axisOf(action: HeldAction): { readonly axis: number; readonly si
     sign: action.endsWith("+") ? 1 : -1,
   };
 }
-export function axisOfStick(action: StickAction): { readonly axis: number; readonly sign: 1 | -1 } {
+export function axisOfStick(action: Exclude<StickAction, CameraAction>): {
+  readonly axis: number;
+  readonly sign: 1 | -1;
+} {
   return {
     axis: AXIS_NAMES.findIndex(name => action === name || action === `-${name}`),
     sign: action.startsWith("-") ? -1 : 1,
@@ -84,7 +95,27 @@ export const DEFAULT_BINDINGS: Bindings = {
     12: "z+",
     13: "z-",
   },
-  axes: { 0: "x", 1: "-y" },
+  axes: { 0: "x", 1: "-y", 2: "camera-x", 3: "camera-y" },
+};
+/**
+ * The table of the reaching robot (rows X-30 … X-33): the left stick and the cross move the target, the right stick
+ * turns the view, A closes the gripper while it is held. Each can be bound to something else by itself.
+ */
+export const TARGET_BINDINGS: Bindings = {
+  keyboard: DEFAULT_BINDINGS.keyboard,
+  buttons: {
+    0: "grip",
+    3: "aid-next",
+    5: "record",
+    6: "edit",
+    7: "tilt",
+    8: "aid-previous",
+    9: "ready",
+    11: "camera",
+    12: "z+",
+    13: "z-",
+  },
+  axes: DEFAULT_BINDINGS.axes,
 };
 
 export interface BindingState extends Bindings {
@@ -137,4 +168,5 @@ export const bindButton = (button: number, action: PadAction): void =>
   }));
 export const bindStick = (axis: number, action: StickAction): void =>
   bindingStore.setState(({ axes }) => ({ axes: { ...axes, [axis]: action } }));
+export const bindForTarget = (): void => bindingStore.setState(TARGET_BINDINGS);
 export const resetBindings = (): void => bindingStore.setState(DEFAULT_BINDINGS);

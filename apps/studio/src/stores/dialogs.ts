@@ -9,6 +9,8 @@ export type DialogName =
   | "export"
   | "import"
   | "robots"
+  | "own-robot"
+  | "dh-table"
   | "station"
   | "collision"
   | "cameras"
@@ -16,7 +18,8 @@ export type DialogName =
   | "fleet"
   | "shapes"
   | "run-question"
-  | "demonstration";
+  | "demonstration"
+  | "glove";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

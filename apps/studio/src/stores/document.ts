@@ -12,10 +12,17 @@ import {
 } from "@twincell/project";
 import { robotById, type Pose, type Program, type Robot } from "@twincell/core";
 import { cellStore } from "./cell.ts";
+import { knowRobotFile, ownFileOf } from "./own-robots.ts";
 
 let history: History | null = null;
 
+/** A robot that the cell brings is known before anybody looks at the cell, also when undo brings it back. */
+function knowRobot({ robot: { id, file } }: CellDocument): void {
+  if (file !== undefined && ownFileOf(id) !== file) knowRobotFile(file);
+}
+
 function publish(next: History): void {
+  knowRobot(next.document);
   const changed = next.document !== history?.document;
   history = next;
   cellStore.setState(state => ({

@@ -1,6 +1,15 @@
 import { createStore } from "zustand/vanilla";
 
 export type JogFrame = "joint" | "base" | "tool" | "user" | "world";
+export interface DragLocks {
+  readonly x: boolean;
+  readonly y: boolean;
+  readonly z: boolean;
+  readonly turn: boolean;
+}
+export const NO_LOCKS: DragLocks = { x: false, y: false, z: false, turn: false };
+export const SMALLEST_DRAG = 0.1;
+export const LARGEST_DRAG = 2;
 export interface JogState {
   readonly frame: JogFrame;
   /** Name of the frame that "user" means; "" when the cell has none. */
@@ -11,6 +20,10 @@ export interface JogState {
   readonly step_rad: number;
   /** Continuous jog: fraction of the manual-mode speed cap, 0 … 1. */
   readonly speed: number;
+  /** The tool goes this share of the way of the hand that drags it, 0.1 … 2 (row L-28). */
+  readonly dragScale: number;
+  /** What a dragging hand may not change: the place along an axis of the handle, or the orientation (row L-30). */
+  readonly locks: DragLocks;
   /** Index into the orientation aids, or null when the tool is free (N-52). */
   readonly aid: number | null;
   /** Why the last jog was refused, for the panel; null when free. */
@@ -25,6 +38,8 @@ export const jogStore = createStore<JogState>(() => ({
   step_m: 0.005,
   step_rad: Math.PI / 180,
   speed: 0.5,
+  dragScale: 1,
+  locks: NO_LOCKS,
   aid: null,
   blocked: null,
   moving: false,

@@ -3,7 +3,8 @@ import { beforeEach, expect, test } from "vitest";
 import { keepDocument, openKept, type Clock } from "./autosave.ts";
 import { cellStore } from "./cell.ts";
 import { commit, redo, undo } from "./document.ts";
-import { CellLibrary, libraryStore, TRASH_MS, setLibrary, type KeyValueStore } from "./library.ts";
+import type { KeyValueStore } from "./keeper.ts";
+import { CellLibrary, libraryStore, TRASH_MS, setLibrary } from "./library.ts";
 import { noticeStore } from "./notices.ts";
 import { openCell, openCellText, openStored, trashCell } from "./opening.ts";
 

@@ -1,14 +1,18 @@
-import { emptyCell, EXAMPLES, isTextProgram, saveDocument, type CellDocument } from "@twincell/project";
+import {
+  emptyCell,
+  EXAMPLES,
+  isTextProgram,
+  modelsOf,
+  saveDocument,
+  type CellDocument,
+  type ModelFacts,
+} from "@twincell/project";
+import { robotById } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 import { openSaved } from "./catalogue.ts";
-import type { Keeper } from "./keeper.ts";
+import type { KeyValueStore } from "./keeper.ts";
 import { inStep } from "./document.ts";
 
-/** A place that keeps texts by key, lists its keys and can delete. Every call may fail; one `set` is all or nothing. */
-export interface KeyValueStore extends Keeper {
-  keys(): Promise<readonly unknown[]>;
-  delete(key: string): Promise<void>;
-}
 /** A state of a cell one can go back to. */
 export interface CellVersion {
   readonly number: number;
@@ -27,6 +31,8 @@ export interface StoredCell extends CellFacts {
   readonly id: string;
   readonly name: string;
   readonly robot: string;
+  /** As it was called when the cell was kept: a robot from a file is known only while its cell is open. */
+  readonly robotName?: string;
   readonly saved_ms: number;
   /** When it was moved to the trash; null while it is not there. */
   readonly trashed_ms: number | null;
@@ -34,6 +40,8 @@ export interface StoredCell extends CellFacts {
   readonly versions: readonly CellVersion[];
   /** Names of its programs, points, objects, frames and tools, for the search. */
   readonly names: readonly string[];
+  /** What its objects are, weigh and do, for the search over models; missing in what earlier releases kept. */
+  readonly models?: readonly ModelFacts[];
 }
 export interface LibraryState {
   /** Newest first; null until they were read. */
@@ -249,9 +257,10 @@ const contentKey = (id: string, number: number): string => `${CONTENT}${id}.${nu
 const given = (facts: { [key in keyof CellFacts]: CellFacts[key] | undefined }): CellFacts =>
   Object.fromEntries(Object.entries(facts).filter(([, value]) => value !== undefined));
 
-const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | "names"> => ({
+const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | "robotName" | "names" | "models"> => ({
   name: document.name,
   robot: document.robot.id,
+  ...(document.robot.file === undefined ? {} : { robotName: robotById(document.robot.id)?.name ?? "" }),
   names: [
     ...document.objects.map(({ name }) => name),
     ...document.frames.map(({ name }) => name),
@@ -262,6 +271,7 @@ const described = (document: CellDocument): Pick<StoredCell, "name" | "robot" | 
         : [program.name, ...program.steps.flatMap(step => ("name" in step && step.name ? [step.name] : []))],
     ),
   ],
+  models: modelsOf(document),
 });
 
 /** Whether nothing of an example was changed. Only the one of that name is written out: to write all takes 60 ms. */

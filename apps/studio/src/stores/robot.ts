@@ -4,6 +4,7 @@ import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit, robotOf } from "./document.ts";
 import { notify } from "./notices.ts";
+import { ownFileOf } from "./own-robots.ts";
 
 /** The robot as it is called beside its maker. */
 export const shortName = ({ name, vendor }: Robot): string =>
@@ -28,8 +29,9 @@ export function changeRobot(id: string): boolean {
     kept += moved.points - moved.unreached.length;
     return moved.program;
   });
-  if (!commit(words.undo.robot(shortName(to)), before => ({ ...before, robot: { ...before.robot, id }, programs })))
-    return false;
+  const file = ownFileOf(id);
+  const record = { id, worldFromBase: document.robot.worldFromBase, ...(file ? { file } : {}) };
+  if (!commit(words.undo.robot(shortName(to)), before => ({ ...before, robot: record, programs }))) return false;
   notify(
     kept === points ? "done" : "warn",
     changedWords(shortName(to), kept, points),

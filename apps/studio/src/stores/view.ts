@@ -8,6 +8,8 @@ export interface ViewState {
   readonly camera: "main" | "close";
   /** 0 … π/2, row N-44. */
   readonly closeTilt_rad: number;
+  /** −1 … 1: how fast a stick turns the view to the right and up (row X-31). */
+  readonly turning: readonly [number, number];
   /** "level": at TCP height (N-45); "offset": 0.5, 0.5, 0.1 m from the TCP (N-42). */
   readonly closePlacement: "level" | "offset";
   readonly muted: boolean;
@@ -26,6 +28,7 @@ export const viewStore = createStore<ViewState>(() => ({
   theme: "dark",
   camera: "main",
   closeTilt_rad: 0,
+  turning: [0, 0],
   closePlacement: "level",
   muted: false,
   inHeadset: false,
@@ -48,4 +51,9 @@ export const toggleClosePlacement = (): void =>
 /** Row N-44: an analogue trigger 0 … 1 tilts the close camera 0 … 90°. */
 export const tiltCloseCamera = (trigger: number): void =>
   viewStore.setState({ closeTilt_rad: (Math.min(1, Math.max(0, trigger)) * Math.PI) / 2 });
+/** Row X-31: a stick turns the view about what is looked at, as fast as it is deflected. */
+export function turnView([right, up]: readonly [number, number]): void {
+  const [x, y] = viewStore.getState().turning;
+  if (x !== right || y !== up) viewStore.setState({ turning: [right, up] });
+}
 export const wishHeadset = (): void => viewStore.setState(({ headsetWish }) => ({ headsetWish: headsetWish + 1 }));

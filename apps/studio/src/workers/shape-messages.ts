@@ -1,5 +1,6 @@
 import type { ImportReport, LightReport, UnitGuess } from "@twincell/formats";
 import type { ObjectRecord } from "@twincell/project";
+import type { KeptRobotFile } from "../stores/own-robots.ts";
 
 export type ShapeRequest =
   | {
@@ -8,6 +9,8 @@ export type ShapeRequest =
       readonly files: readonly { readonly path: string; readonly bytes: Uint8Array<ArrayBuffer> }[];
       /** Ids that objects of the cell have. */
       readonly taken: readonly string[];
+      /** Whether a description of a robot among them may be a robot; else its links are parts. */
+      readonly robots: boolean;
     }
   | { readonly kind: "scale"; readonly objects: readonly ObjectRecord[]; readonly factor: number }
   | { readonly kind: "light"; readonly objects: readonly ObjectRecord[]; readonly faces: number };
@@ -20,6 +23,15 @@ export interface ImportedFile {
   readonly objects: readonly ObjectRecord[];
 }
 export type ShapeAnswer =
+  /** It can be the robot of the cell: a person says whether it shall. */
+  | {
+      readonly kind: "robot";
+      readonly name: string;
+      readonly file: KeptRobotFile;
+      readonly notes: readonly string[];
+      /** It could also be parts that stand in the cell. */
+      readonly hasParts: boolean;
+    }
   | { readonly kind: "imported"; readonly files: readonly ImportedFile[] }
   | { readonly kind: "scaled"; readonly objects: readonly ObjectRecord[] }
   | { readonly kind: "light"; readonly objects: readonly ObjectRecord[]; readonly report: LightReport }

@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { inflateSync } from "fflate";
 import { inverse, seededRandom, transformMesh, type Pose } from "@twincell/core";
 import {
@@ -7,8 +8,10 @@ import {
   importFile,
   LARGEST_IMPORT,
   lightened,
+  mayBeRobot,
   partsForCell,
   readZip,
+  robotFromFiles,
   STEP_ENDINGS,
   type ImportedPart,
   type OcctResult,
@@ -41,7 +44,7 @@ async function answerTo(request: ShapeRequest): Promise<ShapeAnswer> {
   }
 }
 
-async function imported({ files, taken }: Extract<ShapeRequest, { kind: "import" }>): Promise<ShapeAnswer> {
+async function imported({ files, taken, robots }: Extract<ShapeRequest, { kind: "import" }>): Promise<ShapeAnswer> {
   const held = new Map<string, Uint8Array>();
   for (const { path, bytes } of files) {
     if (endingOf(path) !== "zip") {
@@ -52,6 +55,8 @@ async function imported({ files, taken }: Extract<ShapeRequest, { kind: "import"
     if (archive.kind !== "read") return archive;
     for (const [inside, content] of archive.files) held.set(inside, content);
   }
+  const robot = robots ? await robotAmong(held) : undefined;
+  if (robot) return robot;
   const paths = filesToImport([...held.keys()]);
   if (paths.length === 0)
     return { kind: "not-understood", sentence: "There is no shape and no robot description in it." };
@@ -74,6 +79,31 @@ async function imported({ files, taken }: Extract<ShapeRequest, { kind: "import"
     done.push({ file, unit, report, objects });
   }
   return { kind: "imported", files: done };
+}
+
+/**
+ * The robot that the files describe: a description where there is one, else a robot file or a table. Files that are no
+ * robot by their content are none; a description that has no moving chain is a shape like others.
+ */
+async function robotAmong(held: ReadonlyMap<string, Uint8Array>): Promise<ShapeAnswer | undefined> {
+  const source = filesInMemory(held);
+  const [described] = filesToImport([...held.keys()]).filter(path => ["urdf", "xacro"].includes(endingOf(path)));
+  const path = described ?? [...held].find(([name, bytes]) => mayBeRobot(name, bytes))?.[0];
+  if (path === undefined) return undefined;
+  const read = await robotFromFiles(path, source);
+  if (read.kind === "robot")
+    return {
+      kind: "robot",
+      name: path.slice(path.lastIndexOf("/") + 1),
+      file: read.file,
+      notes: read.notes,
+      hasParts: described !== undefined,
+    };
+  if (described !== undefined) return undefined;
+  return {
+    kind: "not-understood",
+    sentence: `${read.line === undefined ? "" : `Line ${read.line}: `}${read.sentence}`,
+  };
 }
 
 const looksLikeStep = (path: string, bytes: Uint8Array): boolean =>

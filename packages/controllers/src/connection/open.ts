@@ -4,6 +4,7 @@ import type { CellMember } from "../cell/shared-cell.ts";
 import type { Cannot } from "../driver/cannot.ts";
 import {
   falseIdentity,
+  isOwnRobot,
   pose,
   samplePlan,
   unrolled,
@@ -18,6 +19,7 @@ import {
   type Signals,
   type Step,
   type RealController,
+  robotFileOf,
 } from "@twincell/core";
 import {
   createRealController,
@@ -91,6 +93,8 @@ export interface VendorConnection extends RobotConnection {
     readonly robot: string;
     readonly virtual: boolean;
     readonly watchdog: string;
+    /** The robot file of a robot that is in no library, without its meshes: those who look on learn it from here. */
+    readonly robotFile?: unknown;
   };
   /** null where a person stands before a real one. */
   readonly pendant: VirtualPendant | null;
@@ -129,6 +133,8 @@ export interface VendorConnection extends RobotConnection {
 export type OpenedDriver =
   | { readonly kind: "opened"; readonly station: VendorConnection }
   | { readonly kind: "refused"; readonly why: Refusal };
+
+const withoutMeshes = ({ links: _links, ...robot }: Robot): unknown => robotFileOf(robot);
 
 /** Why a robot does not stand on a controller of that kind, by section and kinematics; null where it does. */
 function otherRobot(kind: DriverKind, robot: Robot): Refusal | null {
@@ -490,6 +496,7 @@ function vendorConnectionOf(own: VendorConnectionState): VendorConnection {
       brand: own.brand.id,
       robot: own.robot.id,
       virtual: own.virtualPendant !== null,
+      ...(isOwnRobot(own.robot) ? { robotFile: withoutMeshes(own.robot) } : {}),
       watchdog:
         own.adapter.watchdog.kind === "robot"
           ? `The robot stops by itself within ${Math.round(own.adapter.watchdog.within_s * 1000)} ms.`

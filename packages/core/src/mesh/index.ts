@@ -6,3 +6,4 @@ export * from "./measure.ts";
 export * from "./weld.ts";
 export * from "./mass.ts";
 export * from "./link-solid.ts";
+export * from "./codec.ts";

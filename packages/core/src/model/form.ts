@@ -1,3 +1,5 @@
+import type { TriangleMesh } from "../mesh/mesh.ts";
+
 /** What a part is made of. "mark" is what shows a turn of a symmetrical link (row L-62). */
 export type PartMaterial = "casting" | "dark" | "cover" | "metal" | "mark";
 
@@ -42,6 +44,19 @@ export interface RobotPaint {
   readonly casting: string;
   readonly dark: string;
   readonly cover: string;
+}
+
+/** One drawn part of a link that came from a file, in the frame of that link. */
+export interface OwnPart {
+  /** `#rrggbb`; the casting's where the file says none. */
+  readonly color?: string;
+  readonly mesh: TriangleMesh;
+}
+
+/** A link as the robot's own files draw it, and the solids that count in collisions: the drawn ones where left out. */
+export interface OwnLink {
+  readonly parts: readonly OwnPart[];
+  readonly solids?: readonly TriangleMesh[];
 }
 
 /** What a robot looks like: link by link, base first. Plain data. */

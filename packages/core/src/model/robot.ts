@@ -2,7 +2,7 @@ import type { Pose } from "../spatial/pose.ts";
 import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { LinkMass, SerialArm } from "./arm.ts";
-import type { RobotForm, RobotPaint } from "./form.ts";
+import type { OwnLink, RobotForm, RobotPaint } from "./form.ts";
 import type { VendorSection } from "./vendor.ts";
 
 /**
@@ -153,6 +153,8 @@ export interface Robot {
   readonly unverified?: true;
   /** How it looks; without it the arm is drawn from its dimensions alone. */
   readonly form?: RobotForm;
+  /** Links 0 … n as the robot's own files draw them: they go before the form and the dimensions. */
+  readonly links?: readonly OwnLink[];
   /** Colours as the maker paints it. */
   readonly paint?: RobotPaint;
   /** quantity → where the number comes from. */

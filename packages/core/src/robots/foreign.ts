@@ -55,13 +55,15 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     sources: known.sources ?? { arm: "The axes, limits and speeds of the robot file that was opened." },
     shapeError_m: known.shapeError_m ?? 0,
     ...optional(known),
-    assumptions,
+    // A file that was written from a robot has its assumptions in it already.
+    assumptions: [...new Set(assumptions)],
   };
 }
 
 /** What may be missing from a robot, where it is known. */
 function optional(known: KnownOfRobot): Partial<Robot> {
-  const { payload_kg, repeatability_m, mass_kg, masses, workspace, madeUpGeometry, unverified, form, paint } = known;
+  const { payload_kg, repeatability_m, mass_kg, masses, workspace, madeUpGeometry, unverified } = known;
+  const { form, paint, links } = known;
   const { vendorSection } = known;
   const payloadMax_kg = known.payloadMax_kg ?? payload_kg;
   return {
@@ -76,6 +78,7 @@ function optional(known: KnownOfRobot): Partial<Robot> {
     ...(madeUpGeometry === undefined ? {} : { madeUpGeometry }),
     ...(form === undefined ? {} : { form }),
     ...(paint === undefined ? {} : { paint }),
+    ...(links === undefined ? {} : { links }),
   };
 }
 

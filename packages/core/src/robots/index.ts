@@ -5,6 +5,8 @@ export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
 export * from "./parse-robot.ts";
+export * from "./write-robot.ts";
+export * from "./own.ts";
 export * from "./parse-vendor.ts";
 export * from "./dh.ts";
 export * from "./aligned.ts";

@@ -4,6 +4,7 @@ import { Reader, type Fields } from "../json/reader.ts";
 import type { Joint } from "../model/arm.ts";
 import { robotFromArm, type KnownOfRobot } from "./foreign.ts";
 import { falseSection } from "./identity.ts";
+import { linksOf, massesIn } from "./parse-links.ts";
 import { placed, textsOf } from "./parse-fields.ts";
 import { vendorSectionOf } from "./parse-vendor.ts";
 import type { Robot } from "../model/robot.ts";
@@ -38,6 +39,8 @@ const TOP = [
   "max_tcp_speed_mps",
   "mass_kg",
   "shape_error_m",
+  "masses",
+  "links",
   "sources",
   "assumptions",
 ];
@@ -121,6 +124,8 @@ function robotOf(reader: Reader, value: unknown): Robot | undefined {
     repeatability_m: amount("repeatability_m", "m"),
     maxTcpSpeed_mps: amount("max_tcp_speed_mps", "m/s"),
     shapeError_m: amount("shape_error_m", "m"),
+    masses: file.masses === undefined ? undefined : massesIn(reader, file.masses, joints.length),
+    links: file.links === undefined ? undefined : linksOf(reader, file.links, joints.length),
     sources: file.sources === undefined ? undefined : textsOf(reader, file.sources, "sources"),
     assumptions: [...ramps(list), ...(file.assumptions === undefined ? [] : sentences(reader, file.assumptions))],
   });

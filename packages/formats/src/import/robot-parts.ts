@@ -53,18 +53,25 @@ function linkPosesAtZero(robot: UrdfRobot): Map<string, Pose> {
   return poses;
 }
 
-interface Shown {
+/** A drawn mesh in the frame of its shape. */
+export interface ShownMesh {
   readonly color: Rgb | undefined;
   readonly mesh: TriangleMesh;
 }
 
-function shapeParts(
+/**
+ * The meshes of a shape with their colours; a mesh file is read once for all that name it.
+ *
+ * @param read   what was read already, by reference. Added to.
+ * @param notes  what could not be loaded is added, one sentence each.
+ */
+export function shapeParts(
   { geometry, rgba }: UrdfShape,
   path: string,
   files: FileSource,
   read: Map<string, readonly RawPart[]>,
   notes: string[],
-): readonly Shown[] {
+): readonly ShownMesh[] {
   const own: Rgb | undefined = rgba && [rgba[0] ?? 0.6, rgba[1] ?? 0.6, rgba[2] ?? 0.6];
   if (geometry.kind !== "mesh") {
     const mesh = geometryMesh(geometry, () => undefined);

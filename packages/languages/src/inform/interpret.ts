@@ -1,16 +1,16 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { Notices, dryRun, textFault } from "../parser/index.ts";
+import { Notices, dryRun, strangeRobot, type DeclaredCell, createDeclaredCell } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import type { PulseData } from "./pulses.ts";
 import { Arm } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
-import { ControllerState, type Context } from "./run/state.ts";
+import { ControllerState } from "./run/state.ts";
 
 /** Jobs ready to be executed, with what only their reader wants to know. */
 export type Opened =
   | {
       readonly kind: "opened";
-      readonly context: Context;
+      readonly context: DeclaredCell;
       readonly start: (signals?: Signals, notices?: Notices) => Run;
     }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
@@ -27,20 +27,11 @@ export function openInform(
 ): Opened {
   const arm = Arm.of(robot);
   if (arm === undefined) {
-    return {
-      kind: "not-understood",
-      faults: [
-        textFault(
-          { line: 1, column: 1 },
-          "a robot whose controller speaks INFORM",
-          `How INFORM counts the axes of the ${robot.name} is not known.`,
-        ),
-      ],
-    };
+    return strangeRobot(robot, "INFORM", "axes");
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const context: Context = { tools: {}, frames: {}, signals: {} };
+  const context: DeclaredCell = createDeclaredCell();
   const start = (signals?: Signals, notices?: Notices): Run => {
     const state = new ControllerState(
       robot,

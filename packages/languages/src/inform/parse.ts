@@ -1,5 +1,5 @@
-import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
-import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
+import { type Pose, type Robot } from "@twincell/core";
+import { headingOr, textFault, type Comment, programOfExecution, metByName } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { executable, openInform, type Run } from "./interpret.ts";
 import type { PulseData } from "./pulses.ts";
@@ -18,32 +18,19 @@ export function parseInform(
 ): ReadSteps {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
-  const runs: Run[] = [];
-  const executed = (signals?: Signals): Run["steps"] => {
-    const run = opened.start(signals);
-    runs.push(run);
-    return run.steps;
-  };
-  const done = unrolled(executed, opened.context.signals, { program: "job", statement: "an instruction" });
-  if (done.kind === "not-understood") return done;
-  const lines = textLines(text).map(plainText);
-  const { tools, frames, signals } = opened.context;
-  const assumed = [...new Map(runs.flatMap(run => [...run.assumed]))].map(([name, at]) =>
-    textFault(at, "TOOL.CND or UFRAME.CND behind the job", keptOnController(name)),
-  );
-  return {
-    kind: "parsed",
-    waits: done.waits,
+  return programOfExecution<Run>(text, robot, {
+    start: opened.start,
+    declared: opened.context,
     executable: () => executable(opened),
-    warnings: [...assumed, ...done.repeated],
-    program: {
-      ...emptyProgram(robot.id, nameOf(lines)),
-      ...withComments(lines, done, comment),
-      tools,
-      frames,
-      signals,
-    },
-  };
+    words: { program: "job", statement: "an instruction" },
+    title: nameOf,
+    comment,
+    warnings: runs =>
+      Array.from(
+        metByName(runs, run => run.assumed),
+        ([name, at]) => textFault(at, "TOOL.CND or UFRAME.CND behind the job", keptOnController(name)),
+      ),
+  });
 }
 
 /** What a person called the job: its comment, or its name. */

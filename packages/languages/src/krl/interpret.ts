@@ -1,17 +1,17 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { dryRun, textFault } from "../parser/index.ts";
+import { dryRun, textFault, strangeRobot, type DeclaredCell, createDeclaredCell } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import type { Source } from "./read/syntax.ts";
 import { Axes } from "./run/axes.ts";
 import { Machine } from "./run/machine.ts";
-import { ControllerState, type Context } from "./run/state.ts";
+import { ControllerState } from "./run/state.ts";
 
 /** A module ready to be executed, with what only its reader wants to know. */
 export type Opened =
   | {
       readonly kind: "opened";
       readonly source: Source;
-      readonly context: Context;
+      readonly context: DeclaredCell;
       readonly start: (signals?: Signals) => Run;
     }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
@@ -26,20 +26,11 @@ export interface Run {
 export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
   const axes = Axes.of(robot);
   if (axes === undefined) {
-    return {
-      kind: "not-understood",
-      faults: [
-        textFault(
-          { line: 1, column: 1 },
-          "a robot whose controller speaks KRL",
-          `How KRL counts the axes of the ${robot.name} is not known.`,
-        ),
-      ],
-    };
+    return strangeRobot(robot, "KRL", "axes");
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const context: Context = { tools: {}, frames: {}, signals: {} };
+  const context: DeclaredCell = createDeclaredCell();
   const start = (signals?: Signals): Run => {
     const state = new ControllerState(robot, axes, worldFromBase, context);
     const machine = new Machine(read.source, state, signals, context.signals);

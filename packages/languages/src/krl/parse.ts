@@ -1,5 +1,5 @@
-import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
-import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
+import { type Pose, type Robot, type TextFault } from "@twincell/core";
+import { textFault, type Comment, programOfExecution, metByName } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { assumedFaults, openKrl, type Run } from "./interpret.ts";
 
@@ -10,35 +10,27 @@ import { assumedFaults, openKrl, type Run } from "./interpret.ts";
 export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): ReadSteps {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const runs: Run[] = [];
-  const executed = (signals?: Signals): Run["steps"] => {
-    const run = opened.start(signals);
-    runs.push(run);
-    return run.steps;
-  };
-  const done = unrolled(executed, opened.context.signals, { program: "program", statement: "a statement" });
-  if (done.kind === "not-understood") return done;
-  const lines = textLines(text).map(plainText);
-  const { tools, frames, signals } = opened.context;
-  const assumed = assumedFaults(new Map(runs.flatMap(run => [...run.assumed])));
-  const notes = [...new Map(runs.flatMap(run => [...run.notes])).values()];
+  return programOfExecution<Run>(text, robot, {
+    start: opened.start,
+    declared: opened.context,
+    executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
+    words: { program: "program", statement: "a statement" },
+    title: nameOf,
+    comment,
+    warnings: runs => [
+      ...assumedFaults(metByName(runs, run => run.assumed)),
+      ...metByName(runs, run => run.notes).values(),
+      ...warned(runs),
+    ],
+  });
+}
+
+/** What was odd on the way, each once. */
+function warned(runs: readonly Run[]): TextFault[] {
   const said = new Map(
     runs.flatMap(run => run.warned.map(each => [`${each.at.line} ${each.sentence}`, each] as const)),
   );
-  const warned = [...said.values()].map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
-  return {
-    kind: "parsed",
-    waits: done.waits,
-    executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
-    warnings: [...assumed, ...notes, ...warned, ...done.repeated],
-    program: {
-      ...emptyProgram(robot.id, nameOf(lines)),
-      ...withComments(lines, done, comment),
-      tools,
-      frames,
-      signals,
-    },
-  };
+  return [...said.values()].map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
 }
 
 /** What a person called the program: its &COMMENT, or the name of its first routine. */

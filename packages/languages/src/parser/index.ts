@@ -14,5 +14,6 @@ export * from "./skip.ts";
 export * from "./naming.ts";
 export * from "./declared-cell.ts";
 export * from "./unrolled.ts";
+export * from "./executed-text.ts";
 export * from "./remember.ts";
 export * from "./shown-axes.ts";

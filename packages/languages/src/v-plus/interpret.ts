@@ -1,33 +1,39 @@
 import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { ShownAxes, dryRun, textFault } from "../parser/index.ts";
+import { ShownAxes, dryRun, strangeRobot, type DeclaredCell } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import { Machine } from "./run/machine.ts";
 import type { DeclaredContext } from "./run/state.ts";
+
+/** A text ready to be executed, and what its steps refer to. */
+export type Opened =
+  | {
+      readonly kind: "opened";
+      readonly start: (signals?: Signals) => Generator<Executed, void>;
+      readonly declared: DeclaredCell;
+      readonly ready: Extract<Interpreted, { kind: "ready" }>;
+    }
+  | Extract<Interpreted, { kind: "not-understood" }>;
+
+/** @returns a text that was executed once without a fault. */
+export function openVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
+  const axes = ShownAxes.of(robot, "v-plus");
+  if (axes === undefined) return strangeRobot(robot, "V+", "joints");
+  const read = readSource(text);
+  if (read.kind === "not-understood") return read;
+  const met: DeclaredContext = { tools: {}, lines: {} };
+  const start = (signals?: Signals): Generator<Executed, void> =>
+    new Machine(read.source, robot, axes, worldFromBase, met, signals).run();
+  const fault = dryRun(start());
+  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
+  const declared: DeclaredCell = { tools: met.tools, frames: {}, signals: met.lines };
+  return { kind: "opened", start, declared, ready: { kind: "ready", run: start, context: declared } };
+}
 
 /**
  * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder
  * of the robot, wherever its base stands in the cell.
  */
 export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
-  const axes = ShownAxes.of(robot, "v-plus");
-  if (axes === undefined) {
-    return {
-      kind: "not-understood",
-      faults: [
-        textFault(
-          { line: 1, column: 1 },
-          "a robot whose controller speaks V+",
-          `How V+ counts the joints of the ${robot.name} is not known.`,
-        ),
-      ],
-    };
-  }
-  const read = readSource(text);
-  if (read.kind === "not-understood") return read;
-  const met: DeclaredContext = { tools: {}, lines: {} };
-  const run = (signals?: Signals): Generator<Executed, void> =>
-    new Machine(read.source, robot, axes, worldFromBase, met, signals).run();
-  const fault = dryRun(run());
-  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };
+  const opened = openVPlus(text, robot, worldFromBase);
+  return opened.kind === "opened" ? opened.ready : opened;
 }

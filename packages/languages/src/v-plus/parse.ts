@@ -1,16 +1,7 @@
-import { emptyProgram, type Pose, type Robot } from "@twincell/core";
-import {
-  headingOr,
-  plainText,
-  textFault,
-  textLines,
-  unrolled,
-  withComments,
-  type Comment,
-  type Unrolled,
-} from "../parser/index.ts";
+import { type Pose, type Robot, type Step } from "@twincell/core";
+import { headingOr, plainText, textFault, textLines, type Comment, programOfExecution } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
-import { interpretVPlus } from "./interpret.ts";
+import { openVPlus } from "./interpret.ts";
 import { structuredProgram } from "./read/structure.ts";
 
 /** Share of the full speed at which the points of a point list are passed; the list says nothing about it. */
@@ -30,38 +21,29 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   if (structured?.kind === "program") return { kind: "parsed", program: structured.program, warnings: [] };
   if (structured?.kind === "not-understood") return structured;
   const source = isList ? lines.map(asMove).join("\n") : text;
-  const interpreted = interpretVPlus(source, robot, worldFromBase);
-  if (interpreted.kind === "not-understood") return interpreted;
-
-  const done = unrolled(interpreted.run, interpreted.context.signals ?? {}, {
-    program: "program",
-    statement: "a statement",
+  const opened = openVPlus(source, robot, worldFromBase);
+  if (opened.kind === "not-understood") return opened;
+  const { start, declared, ready } = opened;
+  return programOfExecution(text, robot, {
+    start: signals => ({ steps: start(signals) }),
+    declared,
+    executable: () => ready,
+    words: { program: "program", statement: "a statement" },
+    title: nameOf,
+    comment,
+    warnings: () => (isList ? [MOVES_NOTHING] : []),
+    meant: done => (isList ? { ...done, steps: done.steps.map(atPointListSpeed) } : done),
   });
-  if (done.kind === "not-understood") return done;
-  const moved: Unrolled = isList
-    ? {
-        ...done,
-        steps: done.steps.map(step => (step.type === "move" ? { ...step, speed: { ratio: POINT_LIST_RATIO } } : step)),
-      }
-    : done;
-  const list = isList
-    ? [
-        textFault(
-          { line: 1, column: 1 },
-          "a program with MOVE",
-          "A point list fills an array and moves nothing: each of its points became a joint move.",
-        ),
-      ]
-    : [];
-  const { tools, signals = {} } = interpreted.context;
-  return {
-    kind: "parsed",
-    waits: done.waits,
-    executable: () => interpreted,
-    warnings: [...list, ...done.repeated],
-    program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, moved, comment), tools, signals },
-  };
 }
+
+const MOVES_NOTHING = textFault(
+  { line: 1, column: 1 },
+  "a program with MOVE",
+  "A point list fills an array and moves nothing: each of its points became a joint move.",
+);
+
+const atPointListSpeed = (step: Step): Step =>
+  step.type === "move" ? { ...step, speed: { ratio: POINT_LIST_RATIO } } : step;
 
 /**
  * The line of a point list as the move to its point, every character of the point in its column. Other lines stay as

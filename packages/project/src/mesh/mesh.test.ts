@@ -1,29 +1,8 @@
-import fc from "fast-check";
 import { boxMesh, isClosed, meshBounds, meshVolume } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { cellGeometry, decodeMesh, edgeTraceCell, emptyCell, encodeMesh, shapeMesh } from "../index.ts";
-import { fromBase64, toBase64 } from "./base64.ts";
 
 describe("mesh codec", () => {
-  test("base64 agrees with Node's and comes back", () => {
-    fc.assert(
-      fc.property(fc.uint8Array({ maxLength: 100 }), bytes => {
-        const text = toBase64(bytes);
-        expect(text).toBe(Buffer.from(bytes).toString("base64"));
-        expect(fromBase64(text)).toEqual(bytes);
-      }),
-      { seed: 1, numRuns: 200 },
-    );
-    const long = Uint8Array.from({ length: 20_000 }, (_, i) => (i * 7919) & 255);
-    expect(toBase64(long)).toBe(Buffer.from(long).toString("base64"));
-  });
-
-  test("what is not canonical base64 is refused", () => {
-    for (const text of ["A", "AB", "ABC", "AB=C", "====", "A===", "AB\n=", "Zé==", "AB=="])
-      expect(fromBase64(text), text).toBeUndefined();
-    expect(fromBase64("AA==")).toEqual(Uint8Array.of(0));
-  });
-
   test("a mesh keeps its triangles and its points to single precision", () => {
     const box = boxMesh([0.3, 0.4, 0.2]);
     const decoded = decodeMesh(encodeMesh(box));

@@ -1,6 +1,7 @@
 import {
   PlainFault,
   boxMesh,
+  decodeMesh,
   revolvedMesh,
   robotById,
   type CellGeometry,
@@ -10,7 +11,6 @@ import {
 } from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
 import { partSolid } from "../parts/index.ts";
-import { decodeMesh } from "./codec.ts";
 
 /** Flat faces of a round shape per turn: 48 stay within 0.22 % of the radius. */
 const FACES_PER_TURN = 48;

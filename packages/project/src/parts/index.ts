@@ -16,6 +16,7 @@ import { ROBOT_STAND } from "./robot-stand.ts";
 import { ROLLER_CONVEYOR } from "./roller-conveyor.ts";
 import { TABLE } from "./table.ts";
 import { STEEL_TABLE } from "./steel-table.ts";
+import { TOOLS } from "./tools.ts";
 
 export type { PartKind, PartNumbers, PartParameter } from "./kind.ts";
 export type { PartMaterial, PartPiece } from "./piece.ts";
@@ -36,6 +37,7 @@ export const PARTS: readonly PartKind[] = [
   DOOR,
   LIGHT_CURTAIN,
   PERSON,
+  ...TOOLS,
 ];
 export const partById = (id: string): PartKind | undefined => PARTS.find(part => part.id === id);
 

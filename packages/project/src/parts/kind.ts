@@ -1,4 +1,4 @@
-import type { ObjectRecord } from "../document.ts";
+import type { ObjectRecord, ToolRecord } from "../document.ts";
 import type { PartPiece } from "./piece.ts";
 
 export interface PartParameter {
@@ -14,7 +14,7 @@ export type PartNumbers = Readonly<Record<string, number>>;
 /** A kind of part of the library: a file of its own each. */
 export interface PartKind {
   readonly id: string;
-  readonly category: "tables" | "conveyors" | "safety" | "load" | "stands";
+  readonly category: "tables" | "conveyors" | "safety" | "load" | "stands" | "tools";
   readonly role: ObjectRecord["role"];
   readonly parameters: readonly PartParameter[];
   /** Shown in the list and where only one colour can be. */
@@ -25,6 +25,8 @@ export interface PartKind {
   readonly pieces: (numbers: PartNumbers) => readonly PartPiece[];
   /** What it carries where a robot stands on it. */
   readonly carries_kg?: number;
+  /** It is a tool: its frame is that of the flange, and this is what follows from its numbers. */
+  readonly tool?: (numbers: PartNumbers) => Pick<ToolRecord, "flangeFromTcp" | "gripper">;
   /** It moves what lies on it along its x axis, at its `speed`. */
   readonly conveys?: true;
 }

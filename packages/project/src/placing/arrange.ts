@@ -1,6 +1,15 @@
-import { compose, fromAxisAngle, inverse, multiply, pose, rotate, type Pose, type Vector3 } from "@twincell/core";
+import {
+  compose,
+  encodeMesh,
+  fromAxisAngle,
+  inverse,
+  multiply,
+  pose,
+  rotate,
+  type Pose,
+  type Vector3,
+} from "@twincell/core";
 import type { CellDocument, ObjectRecord, Shape } from "../document.ts";
-import { encodeMesh } from "../mesh/codec.ts";
 import { shapeMesh } from "../mesh/shape.ts";
 import { worldBounds } from "./bounds.ts";
 

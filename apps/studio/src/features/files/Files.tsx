@@ -16,6 +16,8 @@ const KINDS = [
   ".zip",
   ".mtl",
   ".bin",
+  ".dh",
+  ".tsv",
   ...IMPORT_ENDINGS.map(ending => `.${ending}`),
   ...new Set(DIALECTS.flatMap(({ extensions }) => extensions)),
 ].join();

@@ -3,7 +3,7 @@ import { loadCatalogue } from "../../stores/catalogue.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
 import { importShapes, type FileAt } from "../../runtime/mesh-import.ts";
-import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
+import { endingOf, IMPORT_ENDINGS, mayBeRobot } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../messages/index.ts";
 import { openDemonstration } from "../../runtime/planning/demonstrating.ts";
@@ -45,11 +45,25 @@ async function openTexts(files: readonly File[]): Promise<void> {
 /** Shapes, robot descriptions and archives of them. */
 const isShape = (name: string): boolean => [...IMPORT_ENDINGS, "zip"].includes(endingOf(name));
 
+/** Robot files and D-H tables share their endings with cells, programs and demonstrations: their first lines tell. */
+async function robotsAmong(files: readonly FileAt[]): Promise<readonly FileAt[]> {
+  const tables = files.filter(({ file }) => !isShape(file.name));
+  const starts = await Promise.all(
+    tables.map(async ({ file }) => new Uint8Array(await file.slice(0, 4096).arrayBuffer())),
+  );
+  return tables.filter(({ file }, i) => mayBeRobot(file.name, starts[i]!));
+}
+
 /**
  * Opens what was chosen or dropped at once: recordings together, as one history; program files together, as one
  * program; shapes together with the files beside them, which they may name; everything else one by one.
  */
 export async function openFiles(files: readonly FileAt[]): Promise<void> {
+  const robots = await robotsAmong(files);
+  if (robots.length > 0) {
+    await importShapes(robots);
+    return;
+  }
   const recordings = files.filter(({ file }) => /\.mcap$/i.test(file.name)).map(({ file }) => file);
   const hasShapes = files.some(({ file }) => isShape(file.name));
   const texts = files

@@ -2,6 +2,7 @@ import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import {
   bindButton,
+  bindForTarget,
   bindingStore,
   bindKey,
   bindStick,
@@ -38,6 +39,9 @@ export function ControlsDialog() {
         <>
           <button className="btn" onClick={resetBindings}>
             {words.pad.reset}
+          </button>
+          <button className="btn" onClick={bindForTarget}>
+            {words.pad.target}
           </button>
           <span className="small dim">{words.pad.while}</span>
         </>

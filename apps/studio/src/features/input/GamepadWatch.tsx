@@ -7,7 +7,7 @@ import { runCommand } from "../../stores/commands.ts";
 import { dialogStore } from "../../stores/dialogs.ts";
 import { gamepadStore } from "../../stores/gamepad.ts";
 import { notify } from "../../stores/notices.ts";
-import { tiltCloseCamera, viewStore } from "../../stores/view.ts";
+import { tiltCloseCamera, turnView, viewStore } from "../../stores/view.ts";
 import { words } from "../../messages/index.ts";
 import { padStep, type PadReading } from "./gamepad.ts";
 
@@ -28,6 +28,7 @@ export function GamepadWatch() {
     let told_ms = 0;
     let name = "";
     let edits = false;
+    let grips = false;
     const back = new Set<number>();
     return onFrame(now_ms => {
       const pad = navigator.getGamepads().find(each => each?.connected) ?? null;
@@ -39,6 +40,8 @@ export function GamepadWatch() {
         releaseAll();
         if (edits) endEdit();
         edits = false;
+        grips = false;
+        turnView([0, 0]);
         gamepadStore.setState({ pad: null });
         notify("warn", words.pad.lost, words.pad.lostHint);
         return;
@@ -62,6 +65,11 @@ export function GamepadWatch() {
         if (edits) beginEdit();
         else endEdit();
       }
+      if (step.grip !== null && step.grip !== grips && listens) {
+        grips = step.grip;
+        runCommand(grips ? "program.gripper-close" : "program.gripper-open");
+      }
+      turnView(dialogStore.getState().open === null ? step.view : [0, 0]);
       if (step.tilt !== null) tiltCloseCamera(step.tilt);
       if ((now_ms - told_ms > TELL_EVERY_MS && dialogStore.getState().open === "controls") || before === null) {
         told_ms = now_ms;

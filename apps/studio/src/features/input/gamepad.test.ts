@@ -1,5 +1,13 @@
 import { expect, test } from "vitest";
-import { DEFAULT_BINDINGS } from "../../stores/bindings.ts";
+import {
+  bindButton,
+  bindForTarget,
+  bindingStore,
+  bindStick,
+  DEFAULT_BINDINGS,
+  resetBindings,
+  TARGET_BINDINGS,
+} from "../../stores/bindings.ts";
 import { padStep, type PadReading } from "./gamepad.ts";
 
 const pad = (down: Readonly<Record<number, number>> = {}, axes: readonly number[] = [0, 0]): PadReading => ({
@@ -68,4 +76,27 @@ test("N-24 buttons count as 0 or 1 however far they are pressed; the trigger and
   expect(sticks.at(-1)).toBe(1);
   for (let i = 1; i < sticks.length; i++) expect(sticks[i]!).toBeGreaterThan(sticks[i - 1]!);
   expect(sticks.every(value => value >= 0 && value <= 1)).toBe(true);
+});
+
+test("X-31 the right stick turns the view and moves nothing; X-30 the left stick and the cross move in three directions", () => {
+  const turned = step(pad({}, [0, 0, 1, -0.575]));
+  expect([...turned.axes]).toEqual([0, 0, 0, 0, 0, 0]);
+  expect(turned.view[0]).toBe(1);
+  expect(turned.view[1]).toBeCloseTo(-0.5, 9);
+  expect([...step(pad({ 12: 1 }, [1, -1, 0, 0])).axes]).toEqual([1, 1, 1, 0, 0, 0]);
+});
+test("X-32 X-33 in the table with a gripper A closes it while held; target, view and gripper are bound each by itself", () => {
+  const at = (reading: PadReading) => padStep(reading, pad(), TARGET_BINDINGS, new Set());
+  expect(at(pad({ 0: 1 })).grip).toBe(true);
+  expect(at(pad()).grip).toBe(false);
+  expect([...at(pad({ 0: 1 })).axes]).toEqual([0, 0, 0, 0, 0, 0]);
+  expect(step(pad({ 0: 1 })).grip).toBeNull();
+  bindForTarget();
+  bindButton(1, "grip");
+  bindStick(2, "rz");
+  const { buttons, axes } = bindingStore.getState();
+  expect(buttons[1]).toBe("grip");
+  expect(buttons[0]).toBeUndefined();
+  expect([axes[0], axes[2], axes[3]]).toEqual(["x", "rz", "camera-y"]);
+  resetBindings();
 });

@@ -1,6 +1,7 @@
 import {
   axisOf,
   axisOfStick,
+  isCamera,
   type Bindings,
   type HeldAction,
   type PadAction,
@@ -21,6 +22,10 @@ export interface PadStep {
   readonly tilt: number | null;
   /** EDIT is held (row L-42). */
   readonly edit: boolean;
+  /** The gripper is to be closed (row X-32); null where no button is bound to it. */
+  readonly grip: boolean | null;
+  /** −1 … 1: how fast the view turns to the right and up (row X-31). */
+  readonly view: readonly [number, number];
 }
 
 /** Sticks at rest are never quite 0. What is left is stretched so that it begins at 0. */
@@ -28,7 +33,7 @@ const DEAD_ZONE = 0.15;
 export const DOWN = 0.5;
 const isHeld = (action: PadAction): action is HeldAction => action.endsWith("+") || action.endsWith("-");
 const isPressed = (action: PadAction): action is PressedAction =>
-  !isHeld(action) && action !== "turn-back" && action !== "tilt" && action !== "edit";
+  !isHeld(action) && action !== "turn-back" && action !== "tilt" && action !== "edit" && action !== "grip";
 const live = (value: number): number =>
   Number.isFinite(value) && Math.abs(value) > DEAD_ZONE
     ? (Math.sign(value) * (Math.abs(value) - DEAD_ZONE)) / (1 - DEAD_ZONE)
@@ -50,6 +55,8 @@ export function padStep(
   let back = false;
   let tilt: number | null = null;
   let edit = false;
+  let grip: boolean | null = null;
+  const view: [number, number] = [0, 0];
   for (const [key, action] of Object.entries(bindings.buttons))
     if (action === "turn-back" && down(now, Number(key))) back = true;
   for (const [key, action] of Object.entries(bindings.buttons)) {
@@ -67,14 +74,21 @@ export function padStep(
     } else if (isPressed(action)) {
       if (isDown && !wasDown) pressed.push(action);
     } else if (action === "edit") edit ||= isDown;
+    else if (action === "grip") grip = (grip ?? false) || isDown;
     else if (action === "tilt") {
       const value = now.buttons[button] ?? 0;
       if (Number.isFinite(value) && value !== (before?.buttons[button] ?? 0)) tilt = Math.min(1, Math.max(0, value));
     }
   }
   for (const [key, action] of Object.entries(bindings.axes)) {
+    const deflection = live(now.axes[Number(key)] ?? 0);
+    if (isCamera(action)) {
+      const which = action === "camera-x" ? 0 : 1;
+      view[which] += deflection;
+      continue;
+    }
     const { axis, sign } = axisOfStick(action);
-    axes[axis] = axes[axis]! + sign * live(now.axes[Number(key)] ?? 0);
+    axes[axis] = axes[axis]! + sign * deflection;
   }
-  return { axes, pressed, tilt, edit };
+  return { axes, pressed, tilt, edit, grip, view };
 }

@@ -1,6 +1,19 @@
-import type { Pose, Vector3 } from "@twincell/core";
-import type { ObjectRecord } from "@twincell/project";
+import { DENSITY_KGM3, FRICTION, meshBounds, meshVolume, type Pose, type Vector3 } from "@twincell/core";
+import {
+  freeToolName,
+  rescaledObjects,
+  shapeMesh,
+  toolOfObject,
+  withNewTool,
+  withObjects,
+  type ObjectRecord,
+} from "@twincell/project";
+import { useMemo } from "react";
+import { cellStore } from "../../stores/cell.ts";
 import { commit, withObject } from "../../stores/document.ts";
+import { notify } from "../../stores/notices.ts";
+import { select } from "../../stores/selection.ts";
+import { Chooser } from "../../ui/Choice.tsx";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
@@ -66,36 +79,21 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
           </>
         )}
         <PartFields object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
-        {/* Without a number of its own, the simulation takes that of the volume and of dry contact. */}
-        {object.mass_kg !== undefined && (
-          <div className="pair">
-            <span className="label">{words.parts.mass}</span>
-            <NumberField
-              label={words.parts.mass}
-              mark="kg"
-              quantity="plain"
-              decimals={2}
-              min={0.001}
-              max={100_000}
-              value={object.mass_kg}
-              onChange={(mass_kg, done) => change(words.undo.part, before => ({ ...before, mass_kg }), done)}
-            />
-          </div>
-        )}
-        {object.friction !== undefined && (
-          <div className="pair">
-            <span className="label">{words.parts.friction}</span>
-            <NumberField
-              label={words.parts.friction}
-              mark="µ"
-              quantity="plain"
-              decimals={2}
-              min={0}
-              max={10}
-              value={object.friction}
-              onChange={(friction, done) => change(words.undo.part, before => ({ ...before, friction }), done)}
-            />
-          </div>
+        <div className="pair">
+          <span className="label">{words.inspector.role}</span>
+          <Chooser
+            label={words.inspector.role}
+            value={object.role}
+            onChange={role => change(words.undo.part, before => ({ ...before, role }), true)}
+            options={ROLES.map(role => ({ value: role, words: words.tree.roles[role] }))}
+          />
+        </div>
+        <Physical object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
+        {shape.kind === "mesh" && <MeshSize object={object} />}
+        {object.role !== "workpiece" && shape.kind !== "part" && (
+          <button className="btn small" title={words.tools.makeToolSays} onClick={() => makeTool(object)}>
+            {words.tools.makeTool(object.name)}
+          </button>
         )}
         {shape.kind === "mesh" && (
           <div className="pair">
@@ -112,4 +110,123 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
       </div>
     </section>
   );
+}
+
+const ROLES: readonly ObjectRecord["role"][] = ["workpiece", "fixture", "furniture", "wall"];
+
+/** Mass and friction; what nobody has typed is shown as the simulation takes it: by volume, and of dry contact. */
+function Physical({
+  object,
+  onChange,
+}: {
+  object: ObjectRecord;
+  onChange: (change: (object: ObjectRecord) => ObjectRecord, done: boolean) => void;
+}) {
+  const { shape } = object;
+  const byVolume_kg = useMemo(() => Math.max(0.001, Math.abs(meshVolume(shapeMesh(shape))) * DENSITY_KGM3), [shape]);
+  return (
+    <>
+      {(object.mass_kg !== undefined || object.role === "workpiece") && (
+        <div className="pair">
+          <span className="label">{words.parts.mass}</span>
+          <NumberField
+            label={words.parts.mass}
+            mark="kg"
+            quantity="plain"
+            decimals={2}
+            min={0.001}
+            max={100_000}
+            value={object.mass_kg ?? byVolume_kg}
+            onChange={(mass_kg, done) => onChange(before => ({ ...before, mass_kg }), done)}
+          />
+        </div>
+      )}
+      <div className="pair">
+        <span className="label">{words.parts.friction}</span>
+        <NumberField
+          label={words.parts.friction}
+          mark="µ"
+          quantity="plain"
+          decimals={2}
+          min={0}
+          max={10}
+          value={object.friction ?? FRICTION}
+          onChange={(friction, done) => onChange(before => ({ ...before, friction }), done)}
+        />
+      </div>
+    </>
+  );
+}
+
+const LEAST_M = 0.0001;
+const MOST_M = 1000;
+
+/** The sides of an imported part, and the factor that makes all of it larger or smaller (row M-08). */
+function MeshSize({ object }: { object: ObjectRecord }) {
+  const { shape } = object;
+  const size_m = useMemo(() => {
+    const { lower, upper } = meshBounds(shapeMesh(shape));
+    return [0, 1, 2].map(k => upper[k]! - lower[k]!);
+  }, [shape]);
+  const scale = (factor: number): void => {
+    if (!(factor > 0) || factor === 1) return;
+    commit(words.undo.size, document => withObjects(document, rescaledObjects([object], factor)));
+  };
+  return (
+    <>
+      <h3 className="label">
+        {words.inspector.size} <span className="dim">{shownUnit("length")}</span>
+      </h3>
+      <div className="fields-3">
+        {MARKS.map((mark, i) => (
+          <NumberField
+            key={mark}
+            label={`${words.inspector.size} ${SIDES[i]}`}
+            mark={mark}
+            quantity="length"
+            unitAbove
+            min={LEAST_M}
+            max={MOST_M}
+            value={size_m[i]!}
+            disabled={!(size_m[i]! > 0)}
+            onChange={(value, done) => {
+              if (done) scale(value / size_m[i]!);
+            }}
+          />
+        ))}
+      </div>
+      <div className="pair">
+        <span className="label">{words.inspector.scale}</span>
+        <NumberField
+          label={words.inspector.scale}
+          mark="×"
+          quantity="plain"
+          decimals={4}
+          min={0.0001}
+          max={10_000}
+          value={1}
+          onChange={(value, done) => {
+            if (done) scale(value);
+          }}
+        />
+      </div>
+    </>
+  );
+}
+
+/** The object leaves the cell and comes to the flange as the tool in use. */
+function makeTool(object: ObjectRecord): void {
+  const { document } = cellStore.getState();
+  if (!document) return;
+  const name = freeToolName(document, object.name);
+  const end_m = meshBounds(shapeMesh(object.shape)).upper[2];
+  const made = commit(words.tools.makeTool(object.name), before =>
+    withNewTool(
+      { ...before, objects: before.objects.filter(({ id }) => id !== object.id) },
+      toolOfObject(object, name, end_m),
+    ),
+  );
+  if (!made) return;
+  select({ kind: "tool" });
+  notify("done", words.tools.mounted(name));
 }

@@ -11,7 +11,7 @@ import { partPicture } from "./picture.ts";
 import "./parts.css";
 
 type Category = PartKind["category"] | "all";
-const CATEGORIES: readonly Category[] = ["all", "tables", "conveyors", "safety", "load", "stands"];
+const CATEGORIES: readonly Category[] = ["all", "tables", "conveyors", "safety", "load", "stands", "tools"];
 
 /** The drawer of Cell mode: parts to drag into the cell, or to place with a click. */
 export function PartLibrary() {

@@ -1,5 +1,5 @@
 import { useStore } from "zustand";
-import { jogStore, JOG_STEPS_M, type JogState } from "../../stores/jog.ts";
+import { jogStore, JOG_STEPS_M, LARGEST_DRAG, SMALLEST_DRAG, type JogState } from "../../stores/jog.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Slide } from "../../ui/Slide.tsx";
@@ -51,3 +51,34 @@ export function JogMode() {
     </div>
   );
 }
+
+const LOCKS = ["x", "y", "z", "turn"] as const;
+/** How the ring at the tool follows the hand: a share of its way, and what it leaves alone. */
+export function DragManner() {
+  const share = useStore(jogStore, state => state.dragScale);
+  const locks = useStore(jogStore, state => state.locks);
+  return (
+    <div className="point-row drag-manner" role="group" aria-label={words.jog.drag}>
+      <span className="point-label">{words.jog.drag}</span>
+      <Chooser
+        label={words.jog.dragScale}
+        value={String(share)}
+        options={DRAG_SCALES.map(each => ({ value: String(each), words: words.jog.dragShare(each) }))}
+        onChange={raw => jogStore.setState({ dragScale: Number(raw) })}
+      />
+      {LOCKS.map(lock => (
+        <button
+          key={lock}
+          className="btn tight"
+          aria-pressed={locks[lock]}
+          aria-label={words.jog.lock(words.jog.lockNames[lock])}
+          title={words.jog.lock(words.jog.lockNames[lock])}
+          onClick={() => jogStore.setState({ locks: { ...locks, [lock]: !locks[lock] } })}
+        >
+          {words.jog.lockNames[lock]}
+        </button>
+      ))}
+    </div>
+  );
+}
+const DRAG_SCALES = [SMALLEST_DRAG, 0.2, 0.5, 1, LARGEST_DRAG] as const;

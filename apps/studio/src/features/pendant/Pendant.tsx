@@ -14,7 +14,7 @@ import { say, words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
 import { Connection } from "./Connection.tsx";
 import { JointGauges } from "./JointGauges.tsx";
-import { JogMode } from "./Manner.tsx";
+import { DragManner, JogMode } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
 import "../../ui/axis.css";
 import "./pendant.css";
@@ -53,6 +53,7 @@ export function Pendant() {
           frame !== "joint" && <JointGauges />
         )}
         <JogMode />
+        <DragManner />
         <PointButtons />
       </div>
     </section>

@@ -8,7 +8,13 @@ import { digits } from "../../messages/numbers.ts";
 import { Picture } from "./Picture.tsx";
 
 /** Everything that is known of a robot, and what is not. */
-export function Details({ robot }: { readonly robot: Robot }) {
+export function Details({
+  robot,
+  onRemove = null,
+}: {
+  readonly robot: Robot;
+  readonly onRemove?: ((robot: Robot) => void) | null;
+}) {
   const languages = useMemo(() => languagesOf(robot).filter(({ why }) => why === null), [robot]);
   const drivers = useMemo(() => DRIVER_KINDS.filter(kind => drivesRobot(kind, robot)), [robot]);
   return (
@@ -24,7 +30,7 @@ export function Details({ robot }: { readonly robot: Robot }) {
       <dl className="facts">
         <div>
           <dt>{words.robots.vendor}</dt>
-          <dd translate="no">{robot.vendor}</dd>
+          <dd translate="no">{robot.vendor || words.robots.unknown}</dd>
         </div>
         <div>
           <dt>{words.robots.axes}</dt>
@@ -49,6 +55,10 @@ export function Details({ robot }: { readonly robot: Robot }) {
         <div>
           <dt>{words.inspector.shapeError}</dt>
           <dd>{showNumber(robot.shapeError_m, "length", 0)} mm</dd>
+        </div>
+        <div>
+          <dt>{words.own.inverse}</dt>
+          <dd>{robot.family.kind === "general" ? words.own.numerical : words.own.closedForm}</dd>
         </div>
         <div>
           <dt>{words.robots.languages}</dt>
@@ -80,6 +90,11 @@ export function Details({ robot }: { readonly robot: Robot }) {
             ))}
           </ul>
         </>
+      )}
+      {onRemove && (
+        <button type="button" className="btn small" onClick={() => onRemove(robot)}>
+          {words.own.remove(robot.name)}
+        </button>
       )}
     </section>
   );

@@ -1,10 +1,12 @@
-import { catalogueRobots, LIBRARY } from "@twincell/core";
+import { catalogueRobots, LIBRARY, type Robot } from "@twincell/core";
 import { useEffect, useMemo, useState } from "react";
 import { useStore } from "zustand";
 import { loadCatalogue } from "../../stores/catalogue.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { controlStore } from "../../stores/control.ts";
-import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
+import { runCommand } from "../../stores/commands.ts";
+import { closeDialog, dialogStore, openDialog } from "../../stores/dialogs.ts";
+import { forgetRobotFile, ownRobotStore } from "../../stores/own-robots.ts";
 import { changeRobot } from "../../stores/robot.ts";
 import { notify } from "../../stores/notices.ts";
 import { Chooser } from "../../ui/Choice.tsx";
@@ -39,6 +41,7 @@ function Open() {
   const [chosen, setChosen] = useState(here);
   const [wish, setWish] = useState(ANY_ROBOT);
   const [robots, setRobots] = useState(() => [...LIBRARY, ...catalogueRobots()]);
+  const own = useStore(ownRobotStore, state => state.robots);
   useEffect(() => {
     loadCatalogue().then(
       () => setRobots([...LIBRARY, ...catalogueRobots()]),
@@ -46,9 +49,16 @@ function Open() {
         notify("warn", words.robots.noCatalogue(fault instanceof Error ? fault.message : String(fault))),
     );
   }, []);
-  const makers = useMemo(() => makersOf(robots), [robots]);
-  const found = useMemo(() => fittingRobots(robots, wish), [robots, wish]);
+  const all = useMemo(() => [...own, ...robots], [own, robots]);
+  const makers = useMemo(() => makersOf(all).filter(maker => maker !== ""), [all]);
+  const found = useMemo(() => fittingRobots(all, wish), [all, wish]);
   const robot = found.find(each => each.id === chosen) ?? found[0];
+  const forget = (gone: Robot): void => {
+    forgetRobotFile(gone.id).then(
+      () => notify("done", words.own.removed(gone.name)),
+      (fault: unknown) => notify("bad", words.cells.failed(fault instanceof Error ? fault.message : String(fault))),
+    );
+  };
   const use = (): void => {
     if (!robot || running) return;
     closeDialog();
@@ -118,8 +128,25 @@ function Open() {
             />
           </div>
           <p className="dim small" role="status">
-            {found.length === 0 ? noneWords(wish.search) : foundWords(found.length, robots.length)}
+            {found.length === 0 ? noneWords(wish.search) : foundWords(found.length, all.length)}
           </p>
+          <div className="robots-own">
+            <button
+              type="button"
+              className="btn small"
+              title={words.own.addHint}
+              onClick={() => {
+                closeDialog();
+                runCommand("file.load");
+              }}
+            >
+              {words.own.add}
+            </button>
+            <button type="button" className="btn small" onClick={() => openDialog("dh-table")}>
+              {words.own.typed}
+            </button>
+            <span className="dim small">{words.own.addHint}</span>
+          </div>
           <div role="radiogroup" aria-label={words.robots.title} className="robots-cards">
             {found.map(each => (
               <label key={each.id} className="robot-card" data-on={each.id === robot?.id} onDoubleClick={use}>
@@ -143,13 +170,14 @@ function Open() {
                   </span>
                 </span>
                 {each.id === here && <span className="tag">{words.robots.here}</span>}
+                {own.includes(each) && <span className="tag">{words.own.tag}</span>}
                 {each.unverified && <span className="tag robot-made-up">{words.robots.unverified}</span>}
                 {each.madeUpGeometry && <span className="tag robot-made-up">{words.robots.madeUp}</span>}
               </label>
             ))}
           </div>
         </div>
-        {robot && <Details robot={robot} />}
+        {robot && <Details robot={robot} onRemove={own.includes(robot) && robot.id !== here ? forget : null} />}
       </form>
     </Frame>
   );

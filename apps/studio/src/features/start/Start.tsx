@@ -100,7 +100,7 @@ function Cells() {
             cell={cell}
             where={where}
             now_ms={now_ms}
-            robot={robotName(cell.robot)}
+            robot={cell.robotName ?? robotName(cell.robot)}
             onOpen={version => {
               closeDialog();
               told(openStored(cell.id, version));

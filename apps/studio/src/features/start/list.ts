@@ -1,3 +1,4 @@
+import { fitsQuery, modelQuery } from "@twincell/project";
 import type { StoredCell } from "../../stores/library.ts";
 import { words } from "../../messages/index.ts";
 import { day } from "../../messages/numbers.ts";
@@ -9,7 +10,8 @@ export interface FoundCell {
 }
 
 /**
- * Cells whose name, robot or anything inside has all words of the query. Both are compared without regard to capitals.
+ * Cells whose name, robot or anything inside has all words of the query, or that hold a model with the properties asked
+ * for: `conveyor speed > 0.2`. Capitals do not count.
  */
 export function findCells(
   cells: readonly StoredCell[],
@@ -18,9 +20,13 @@ export function findCells(
 ): readonly FoundCell[] {
   const wanted = query.trim().toLowerCase();
   if (wanted === "") return cells.map(cell => ({ cell, where: null }));
+  const asked = modelQuery(query);
   return cells.flatMap((cell): FoundCell[] => {
-    if (`${cell.name} ${robotName(cell.robot)}`.toLowerCase().includes(wanted)) return [{ cell, where: null }];
-    const where = cell.names.find(name => name.toLowerCase().includes(wanted));
+    if (`${cell.name} ${cell.robotName ?? robotName(cell.robot)}`.toLowerCase().includes(wanted))
+      return [{ cell, where: null }];
+    const where =
+      cell.names.find(name => name.toLowerCase().includes(wanted)) ??
+      (asked ? cell.models?.find(model => fitsQuery(model, asked)) : undefined)?.name;
     return where === undefined ? [] : [{ cell, where }];
   });
 }

@@ -5,6 +5,7 @@ import { useState } from "react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { chooseProgram, copyProgram, deleteProgram, nameProgram, newProgram } from "../../stores/programs.ts";
+import { runCommand } from "../../stores/commands.ts";
 import { words } from "../../messages/index.ts";
 import { AddStep } from "./AddStep.tsx";
 
@@ -24,6 +25,7 @@ export function ProgramSwitch({ onSearch }: { readonly onSearch?: () => void }) 
     [words.programs.new, newProgram],
     [words.programs.duplicate, copyProgram],
     [words.programs.rename, () => setRenaming(true)],
+    [words.lesson.make, () => runCommand("lesson.make")],
   ] as const;
   return (
     <h2 className="heading">

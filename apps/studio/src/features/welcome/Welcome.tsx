@@ -15,6 +15,8 @@ export function Welcome() {
     state =>
       state.document !== null &&
       state.document.objects.length === 0 &&
+      state.document.tools.length === 0 &&
+      state.document.robot.file === undefined &&
       (programOf(state.document)?.steps.length ?? 0) === 0,
   );
   const robot = useStore(cellStore, state => robotOf(state.document));

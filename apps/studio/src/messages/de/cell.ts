@@ -71,6 +71,7 @@ export const cellWords = {
     "margin(deg)": "{deg}° bis zur Grenze",
     rotation: "Drehung",
     shape: "Form",
+    scale: "Maßstab",
     shapes: { box: "Quader", cylinder: "Zylinder", revolved: "Drehteil", mesh: "Netz" },
     group: "Gruppe",
     "manySteps(n: number)": "{n} Punkte einer Bahn",
@@ -236,6 +237,7 @@ export const cellWords = {
     "removed(name)": "{name} wurde gelöscht. Rückgängig bringt es zurück.",
   },
   parts: {
+    opening: "Öffnung",
     title: "Teilebibliothek",
     "search(n: number)": "{n} Teile durchsuchen",
     hint: "In die Zelle ziehen, oder mit Klick hinstellen",
@@ -248,6 +250,7 @@ export const cellWords = {
       safety: "Sicherheit",
       load: "Last",
       stands: "Gestelle",
+      tools: "Werkzeuge",
     },
     names: {
       table: "Arbeitstisch",
@@ -264,6 +267,12 @@ export const cellWords = {
       door: "Tür mit Schalter",
       "light-curtain": "Lichtvorhang",
       person: "Person",
+      "two-fingers": "Zweifingergreifer",
+      "vacuum-cups": "Vakuumsauger",
+      torch: "Schweißbrenner",
+      spindle: "Spindel",
+      pointer: "Zeigespitze",
+      "glue-gun": "Klebepistole",
     },
     parameters: {
       length: "Länge",

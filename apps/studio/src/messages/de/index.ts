@@ -8,7 +8,10 @@ import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
+import { glove } from "./glove.ts";
+import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
+import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
@@ -16,6 +19,7 @@ export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** German, as robot programmers say it; nobody is addressed, what to do stands in the infinitive. */
@@ -29,11 +33,15 @@ export const catalogue: Translation<typeof en> = {
   direct,
   editor,
   people: peopleWords,
+  glove,
   fleet: fleetWords,
   headset,
+  lesson,
   offline,
+  own,
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };

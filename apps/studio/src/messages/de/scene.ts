@@ -3,6 +3,9 @@ import type { scene as english } from "../en/scene.ts";
 
 /** German: the 3D view and the headset. */
 export const scene = {
+  "handSpeed(percent: number)": "{percent} % der Achsgeschwindigkeit",
+  "tooFast(joint: number, percent: number)":
+    "Achse {joint} mit {percent} % ihrer Geschwindigkeit: so schnell kann der Roboter nicht folgen.",
   links: ["Basis", "Schulter", "Oberarm", "Ellbogen", "Unterarm", "Handgelenk", "Flansch"],
   "link(n: number, robot)": "{robot} · Glied {n}",
   "linkNamed(n: number, name, robot)": "{robot} · Glied {n}, {name}",

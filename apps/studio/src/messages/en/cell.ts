@@ -66,6 +66,7 @@ export const cellWords = {
     "margin(deg)": "{deg}° to the limit",
     rotation: "Rotation",
     shape: "Shape",
+    scale: "Scale factor",
     shapes: { box: "box", cylinder: "cylinder", revolved: "turned part", mesh: "mesh" },
     group: "Group",
     "manySteps(n: number)": "{n} points of one trace",
@@ -230,6 +231,7 @@ export const cellWords = {
     "removed(name)": "{name} was deleted. Undo brings it back.",
   },
   parts: {
+    opening: "Opening",
     title: "Part library",
     "search(n: number)": "Search {n} parts",
     hint: "Drag into the cell, or click to place",
@@ -242,6 +244,7 @@ export const cellWords = {
       safety: "Safety",
       load: "Load",
       stands: "Stands",
+      tools: "Tools",
     },
     names: {
       table: "Work table",
@@ -258,6 +261,12 @@ export const cellWords = {
       door: "Door with switch",
       "light-curtain": "Light curtain",
       person: "Person",
+      "two-fingers": "Two fingers",
+      "vacuum-cups": "Vacuum cups",
+      torch: "Welding torch",
+      spindle: "Spindle",
+      pointer: "Pointer",
+      "glue-gun": "Glue gun",
     },
     parameters: {
       length: "Length",

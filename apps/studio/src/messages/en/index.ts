@@ -6,13 +6,17 @@ import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
 import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
+import { glove } from "./glove.ts";
+import { lesson } from "./lesson.ts";
 import { offline } from "./offline.ts";
+import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -26,11 +30,15 @@ export const en = {
   direct,
   editor,
   people: peopleWords,
+  glove,
   fleet: fleetWords,
   headset,
+  lesson,
   offline,
+  own,
   phone,
   scene,
   text: textWords,
+  tools,
   video: videoWords,
 };

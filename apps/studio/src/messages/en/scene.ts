@@ -1,5 +1,8 @@
 /** The 3D view and the headset. */
 export const scene = {
+  "handSpeed(percent: number)": "{percent} % of joint speed",
+  "tooFast(joint: number, percent: number)":
+    "Joint {joint} at {percent} % of its speed: the robot cannot follow that fast.",
   links: ["base", "shoulder", "upper arm", "elbow", "forearm", "wrist", "flange"],
   "link(n: number, robot)": "{robot} · link {n}",
   "linkNamed(n: number, name, robot)": "{robot} · link {n}, {name}",

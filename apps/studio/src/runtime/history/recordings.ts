@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import { openHistory, type FilePort, type OpenedHistory } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
 import type { FromRecordingReader, ToRecordingReader } from "../../workers/recording-messages.ts";
@@ -27,7 +28,9 @@ export const openHere: OpenRecordings = async files => openHistory(blobFiles(fil
 
 /** Finds what is in each file away from the page, in a worker that lives as long as the reading. */
 export const openInWorker: OpenRecordings = async files => {
-  const worker = new Worker(new URL("../../workers/recording.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(
+    new Worker(new URL("../../workers/recording.worker.ts", import.meta.url), { type: "module" }),
+  );
   const waiting = new Map<string, (said: FromRecordingReader["said"]) => void>();
   worker.addEventListener("message", ({ data }: MessageEvent<FromRecordingReader>) => {
     waiting.get(data.name)?.(data.said);

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
@@ -17,7 +18,9 @@ export interface PhysicsLink {
 }
 
 export function workerLink(): PhysicsLink {
-  const worker = new Worker(new URL("../../workers/physics.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(
+    new Worker(new URL("../../workers/physics.worker.ts", import.meta.url), { type: "module" }),
+  );
   return {
     post: message => {
       worker.postMessage(message);

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import type { FromRobotPainter, ToRobotPainter } from "../../workers/robot-picture-messages.ts";
 import type { Pixels } from "./robot-picture.ts";
 
@@ -8,7 +9,9 @@ const asked = new Map<number, (picture: Pixels | null) => void>();
 const made = new Map<string, Promise<Pixels | null>>();
 
 function hired(): Worker {
-  const fresh = new Worker(new URL("../../workers/robot-picture.worker.ts", import.meta.url), { type: "module" });
+  const fresh = withRobots(
+    new Worker(new URL("../../workers/robot-picture.worker.ts", import.meta.url), { type: "module" }),
+  );
   fresh.addEventListener("message", ({ data: { id, picture } }: MessageEvent<FromRobotPainter>) => {
     asked.get(id)?.(picture);
     asked.delete(id);

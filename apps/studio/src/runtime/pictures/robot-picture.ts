@@ -68,14 +68,15 @@ function trianglesOf(robot: Robot): Triangle[] {
   linkPoses(robot.arm, readyPosture(robot), links);
   const colours = coloursOf(robot.paint ?? PLAIN);
   return linkShapes(robot).flatMap(({ link, parts }) =>
-    parts.flatMap(({ material, mesh: { positions, indices } }) => {
+    parts.flatMap(({ material, color, mesh: { positions, indices } }) => {
+      const paint = color === undefined ? colours[material] : byte(color);
       const points: Vector3[] = [];
       for (let i = 0; i < positions.length; i += 3)
         points.push(transformPoint(links[link]!, [positions[i]!, positions[i + 1]!, positions[i + 2]!]));
       const made: Triangle[] = [];
       for (let i = 0; i < indices.length; i += 3) {
         const corners = [points[indices[i]!]!, points[indices[i + 1]!]!, points[indices[i + 2]!]!] as const;
-        const triangle = lit(corners, colours[material]);
+        const triangle = lit(corners, paint);
         if (triangle) made.push(triangle);
       }
       return made;

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import { linkSolids, OtherArm, samplePlan, type CellGeometry, type CellObject, type Robot } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
@@ -16,7 +17,7 @@ export interface Checker {
   close(): void;
 }
 export function workerChecker(): Checker {
-  const worker = new Worker(new URL("../../workers/check.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(new Worker(new URL("../../workers/check.worker.ts", import.meta.url), { type: "module" }));
   return {
     post: message => worker.postMessage(message),
     listen: hear => {

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import { words } from "../../messages/index.ts";
 import type { FromPlanner, PlanTask, ToPlanner } from "../../workers/plan-messages.ts";
 
@@ -8,7 +9,7 @@ export interface Planner {
   close(): void;
 }
 export function workerPlanner(): Planner {
-  const worker = new Worker(new URL("../../workers/plan.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(new Worker(new URL("../../workers/plan.worker.ts", import.meta.url), { type: "module" }));
   return {
     post: message => {
       worker.postMessage(message);

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import type { Program } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
@@ -15,7 +16,7 @@ let shown = 0;
 
 function hired(): Worker {
   if (worker) return worker;
-  worker = new Worker(new URL("../../workers/post.worker.ts", import.meta.url), { type: "module" });
+  worker = withRobots(new Worker(new URL("../../workers/post.worker.ts", import.meta.url), { type: "module" }));
   worker.addEventListener("message", ({ data }: MessageEvent<FromPoster>) => {
     asked.get(data.id)?.(data);
   });

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import {
   freshGroupIds,
   freshStepIds,
@@ -60,7 +61,7 @@ export function cancelTrace(): void {
 }
 
 function hired(): Worker {
-  const fresh = new Worker(new URL("../../workers/trace.worker.ts", import.meta.url), { type: "module" });
+  const fresh = withRobots(new Worker(new URL("../../workers/trace.worker.ts", import.meta.url), { type: "module" }));
   fresh.addEventListener("message", ({ data }: MessageEvent<FromTracer>) => {
     if (data.id !== id) return;
     traceStore.setState({ working: false });

@@ -1,13 +1,19 @@
-import { armScratch, compose, flangePose, identity, type Pose } from "@twincell/core";
+import { armScratch, compose, flangePose, identity, readyPosture, type Pose } from "@twincell/core";
+import { isTextProgram, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { flangeFromTcpOf, robotOf } from "../../stores/document.ts";
-import { followPoses } from "../live.ts";
+import { libraryStore } from "../../stores/library.ts";
+import { followPoses, showJoints } from "../live.ts";
+
+const isUntaught = ({ programs }: CellDocument): boolean =>
+  programs.every(program => !isTextProgram(program) && program.steps.length === 0);
 
 /** Keeps the poses of `live` in step with the document: another robot, another place, another tool. */
 export function startFollowing(): () => void {
   const scratch = armScratch();
   const worldFromFlange = identity<"world", "flange">();
   let robotId = "";
+  let cellId = "";
   let toolPose: Pose<"flange", "tcp"> | null = null;
   let basePose: Pose<"world", "base"> | null = null;
   const follow = (): void => {
@@ -16,8 +22,10 @@ export function startFollowing(): () => void {
     if (!document || !robot) return;
     const flangeFromTcp = flangeFromTcpOf(document);
     const { worldFromBase } = document.robot;
-    if (robot.id === robotId && flangeFromTcp === toolPose && worldFromBase === basePose) return;
-    const another = robot.id !== robotId;
+    const { current } = libraryStore.getState();
+    if (current === cellId && robot.id === robotId && flangeFromTcp === toolPose && worldFromBase === basePose) return;
+    const another = robot.id !== robotId || (current !== cellId && isUntaught(document));
+    cellId = current;
     robotId = robot.id;
     toolPose = flangeFromTcp;
     basePose = worldFromBase;
@@ -34,6 +42,8 @@ export function startFollowing(): () => void {
       },
       another,
     );
+    // A stretched arm cannot go down, and says nothing of what it reaches: where nothing is taught it stands ready.
+    if (another && isUntaught(document)) showJoints(readyPosture(robot));
   };
   follow();
   return cellStore.subscribe(follow);

@@ -1,3 +1,4 @@
+import { withRobots } from "../hire.ts";
 import { createClient, type Client, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { stationStore, type ServerAddress } from "../../stores/stations.ts";
 
@@ -16,7 +17,9 @@ export function onServers(to: Listen): void {
 
 /** The host in a worker of the page; it is hired when the first station is wanted. */
 function pageHost(): Client {
-  const worker = new Worker(new URL("../../workers/station.worker.ts", import.meta.url), { type: "module" });
+  const worker = withRobots(
+    new Worker(new URL("../../workers/station.worker.ts", import.meta.url), { type: "module" }),
+  );
   const client = createClient(
     {
       send: text => {

@@ -1,6 +1,8 @@
 import {
+  addOwnRobot,
   retargetProgram,
   robotById,
+  robotOfFile,
   type CommandOutcome,
   type JointSample,
   type Pose,
@@ -457,11 +459,19 @@ function take(place: ServerAddress, message: Told): void {
   }
 }
 
+/** A robot that is in no library, as the server tells of it to those who did not bring it. */
+function robotOfOther(file: unknown): Robot | undefined {
+  const answer = file === undefined ? undefined : robotOfFile(file);
+  if (answer?.kind !== "robot") return undefined;
+  addOwnRobot(answer.robot);
+  return answer.robot;
+}
+
 function appear(
   place: ServerAddress,
-  { id, name, brand, robot: robotId, virtual, watchdog }: Omit<EventOf<"opened">, "type">,
+  { id, name, brand, robot: robotId, virtual, watchdog, robotFile }: Omit<EventOf<"opened">, "type">,
 ): void {
-  const robot = robotById(robotId);
+  const robot = robotById(robotId) ?? robotOfOther(robotFile);
   const { document } = cellStore.getState();
   if (!robot || stationOf(id)) return;
   if (!lives.has(id)) lives.set(id, newLive(robot));

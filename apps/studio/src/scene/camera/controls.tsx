@@ -7,10 +7,13 @@ import { useStore } from "zustand";
 import { viewStore } from "../../stores/view.ts";
 import type { Interaction } from "../interaction.ts";
 import { contentBounds, fitDistance } from "./bounds.ts";
+import { turnedView } from "./turned-view.ts";
 
 /** From the front, a little to the robot's right and above: scene coordinates. */
 const FIRST_LOOK = new Vector3(-1, -0.42, -0.62);
 const FLIGHT_MS = 260;
+/** After a pause the view does not jump [s]. */
+const LONGEST_S = 0.05;
 
 /** What the buttons around the viewport ask of its camera. */
 export interface CameraWishes {
@@ -97,8 +100,23 @@ export function Controls({
     }
   }, [camera, document, flight, invalidate, wishes, world]);
 
-  useFrame(() => {
+  useEffect(
+    () =>
+      viewStore.subscribe(({ turning }, before) => {
+        if (turning !== before.turning) invalidate();
+      }),
+    [invalidate],
+  );
+  useFrame((_state, dt_s) => {
     const orbit = controls.current;
+    const { turning } = viewStore.getState();
+    if (orbit && (turning[0] !== 0 || turning[1] !== 0) && !close && !inHeadset) {
+      flight.on = false;
+      turnedView(camera.position, orbit.target, turning, Math.min(dt_s, LONGEST_S));
+      orbit.update();
+      interaction.dirty = true;
+      invalidate();
+    }
     pending.current?.();
     pending.current = null;
     if (!flight.on || !orbit) return;

@@ -112,6 +112,39 @@ function turned(grip: Grip, ray: Ray, axis: Vector3): number {
 }
 
 /**
+ * What of a wanted pose the hand may do: a share of its way since the grip, and nothing along locked axes of the handle
+ * or of the turn (rows L-28, L-30). At the moment of the grip it is the pose of the grip, whatever the share: taking
+ * the tool moves nothing (row L-29).
+ *
+ * @param wanted  written in place.
+ */
+export function restrained(
+  { worldFromTcp, axes }: Pick<Grip, "worldFromTcp" | "axes">,
+  share: number,
+  locks: { readonly x: boolean; readonly y: boolean; readonly z: boolean; readonly turn: boolean },
+  wanted: Pose<"world", "tcp">,
+): Pose<"world", "tcp"> {
+  const back: Quaternion = [-axes[0], -axes[1], -axes[2], axes[3]];
+  const way = rotate(back, subtract(wanted.position, worldFromTcp.position));
+  const own: Vector3 = [locks.x ? 0 : way[0] * share, locks.y ? 0 : way[1] * share, locks.z ? 0 : way[2] * share];
+  const move = rotate(axes, own);
+  for (let k = 0; k < 3; k++) wanted.position[k] = worldFromTcp.position[k]! + move[k]!;
+  if (locks.turn) for (let k = 0; k < 4; k++) wanted.quaternion[k] = worldFromTcp.quaternion[k]!;
+  else if (share !== 1) scaleTurn(worldFromTcp.quaternion, share, wanted.quaternion);
+  return wanted;
+}
+/** The turn from one orientation to another, times a share; a share above 1 goes beyond. */
+function scaleTurn(from: Quaternion, share: number, to: Quaternion): void {
+  const turn = multiply(to, [-from[0], -from[1], -from[2], from[3]]);
+  const sign = turn[3] < 0 ? -1 : 1;
+  const half = Math.hypot(turn[0], turn[1], turn[2]);
+  if (half < 1e-12) return;
+  const axis: Vector3 = [(sign * turn[0]) / half, (sign * turn[1]) / half, (sign * turn[2]) / half];
+  const angle = 2 * Math.atan2(half, sign * turn[3]);
+  multiply(fromAxisAngle(axis, angle * share), from, to);
+}
+
+/**
  * A rigid grip in the hand: the tool tip keeps its place in the hand from the moment it was taken, so taking it moves
  * nothing.
  *

@@ -9,14 +9,17 @@ import { lookAt } from "../../runtime/planning/look-at.ts";
 import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
 import { buildStore } from "../../stores/build.ts";
 import { pickToMeasure } from "../../stores/measure.ts";
+import { jogStore } from "../../stores/jog.ts";
 import { playStore } from "../../stores/play.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
-import { dragged, type Grip, type Ray } from "../handle/drag-maths.ts";
+import { dragged, restrained, type Grip, type Ray } from "../handle/drag-maths.ts";
 import { handleAxes } from "../handle/tcp-handle.tsx";
 import { type HandlePart, type Interaction, type PointerLabel, sayAtPointer } from "../interaction.ts";
 import { toWorld } from "../world-space.ts";
+import { HandWatch } from "../handle/hand-watch.ts";
+import { theRobot } from "../../stores/document.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, hoverEdges, nearestEdge, takeEdges } from "./edges.ts";
 import { measurePoint } from "./measure-point.ts";
@@ -278,13 +281,17 @@ export function Pointer({
 
   const drag = (grip: Grip): void => {
     dragged(grip, aim(), interaction.shift ? SNAP_M : 0, interaction.shift ? SNAP_RAD : 0, interaction.wanted);
+    const { dragScale, locks } = jogStore.getState();
+    restrained(grip, dragScale, locks, interaction.wanted);
     const outcome = dragTcp(interaction.wanted);
     interaction.wanting = outcome.kind === "blocked";
     if (outcome.kind === "on-the-way") invalidate();
     gl.domElement.style.cursor = "grabbing";
     sayAtPointer(
       label,
-      outcome.kind === "blocked" ? say(outcome.sentence) : moveWords(grip, theLive().worldFromTcp),
+      outcome.kind === "blocked"
+        ? say(outcome.sentence)
+        : `${moveWords(grip, theLive().worldFromTcp)}  ${watched(theLive())}`,
       outcome.kind === "blocked" ? "blocked" : "plain",
       interaction.px,
       interaction.py,
@@ -323,5 +330,16 @@ function moveWords(grip: Grip, now: Pose<"world", "tcp">): string {
   const axis = rotate(grip.axes, [grip.part === "rx" ? 1 : 0, grip.part === "ry" ? 1 : 0, grip.part === "rz" ? 1 : 0]);
   const angle = 2 * Math.atan2(turn[0] * axis[0] + turn[1] * axis[1] + turn[2] * axis[2], turn[3]);
   return `ΔR${grip.part[1]!.toUpperCase()} ${signed((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI)}°`;
+}
+/** How fast the joints are dragged, against what the robot can: named when it is too fast (rows L-26, L-33). */
+const watch = new HandWatch();
+function watched({ q_rad, revision }: { readonly q_rad: Float64Array; readonly revision: number }): string {
+  const robot = theRobot();
+  if (!robot) return "";
+  const fastest = watch.look(robot.arm.joints, q_rad, revision, performance.now());
+  if (fastest === null) return "";
+  return fastest.share > 1
+    ? WORDS.tooFast(fastest.joint, Math.round(fastest.share * 100))
+    : WORDS.handSpeed(Math.round(fastest.share * 100));
 }
 const signed = (value: number): string => `${value < -0.05 ? "−" : "+"}${fixed(Math.abs(value), 1)}`;

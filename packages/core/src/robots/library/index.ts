@@ -47,9 +47,19 @@ export const publishedRobot = (id: string): Robot | undefined =>
  */
 export const addOwnRobot = (robot: Robot): void => {
   own.set(robot.id, robot);
+  for (const hear of listeners) hear(robot);
+};
+
+const listeners = new Set<(robot: Robot) => void>();
+
+/** Tells of every robot that is added from now on: threads that work beside share no memory. */
+export const onOwnRobot = (hear: (robot: Robot) => void): void => {
+  listeners.add(hear);
 };
 
 /** The robot of that id: one that was added from a file, else that of the library or the catalogue, or undefined. */
 export const robotById = (id: string): Robot | undefined => own.get(id) ?? publishedRobot(id);
+/** All robots that were added from files, the newest last. */
+export const ownRobots = (): readonly Robot[] => [...own.values()];
 /** Whether a robot was added from a file. */
 export const isOwnRobot = (robot: Robot): boolean => own.get(robot.id) === robot;

@@ -5,6 +5,8 @@ import type { TriangleMesh } from "../../mesh/mesh.ts";
 export interface LinkPart {
   readonly name: string;
   readonly material: PartMaterial;
+  /** `#rrggbb` in place of the material's colour. */
+  readonly color?: string;
   readonly mesh: TriangleMesh;
 }
 

@@ -1,6 +1,7 @@
 import type { LinkSolid } from "../../mesh/link-solid.ts";
 import { linkPoses } from "../../kinematics/forward.ts";
 import { identity } from "../../spatial/pose.ts";
+import type { OwnLink } from "../../model/form.ts";
 import type { Robot } from "../../model/robot.ts";
 import { articulatedArm } from "./articulated-arm.ts";
 import { intoLink, merge } from "./loft.ts";
@@ -13,6 +14,7 @@ export const linkName = (link: number): string => `link ${link}`;
 
 /** Links as designed, each already in its own frame. */
 export function linkDesigns(robot: Robot): LinkDesign[] {
+  if (robot.links !== undefined) return robot.links.map(ownDesign);
   if (robot.form !== undefined) return robot.form.links.map(({ material, lofts }) => loftedLink(material, lofts));
   const { arm, family } = robot;
   const n = arm.joints.length;
@@ -27,6 +29,16 @@ export function linkDesigns(robot: Robot): LinkDesign[] {
   }));
 }
 
+const ownDesign = ({ parts, solids }: OwnLink, link: number): LinkDesign => ({
+  parts: parts.map(({ color, mesh }, i) => ({
+    name: `${linkName(link)} ${i + 1}`,
+    material: "casting",
+    ...(color === undefined ? {} : { color }),
+    mesh,
+  })),
+  shells: solids ?? parts.map(({ mesh }) => mesh),
+});
+
 /** What is drawn of a robot, link by link, in the frame of each link. */
 export const linkShapes = (robot: Robot): LinkShape[] =>
   linkDesigns(robot).map((design, link) => ({ link, name: linkName(link), parts: design.parts }));
@@ -38,11 +50,9 @@ const solidsOf = new WeakMap<Robot, readonly LinkSolid[]>();
 export function linkSolids(robot: Robot): readonly LinkSolid[] {
   const known = solidsOf.get(robot);
   if (known) return known;
-  const made = linkDesigns(robot).map((design, link) => ({
-    link,
-    name: linkName(link),
-    mesh: merge(design.shells),
-  }));
+  const made = linkDesigns(robot)
+    .map((design, link) => ({ link, name: linkName(link), mesh: merge(design.shells) }))
+    .filter(({ mesh }) => mesh.indices.length > 0);
   solidsOf.set(robot, made);
   return made;
 }

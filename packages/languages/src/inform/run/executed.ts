@@ -1,8 +1,8 @@
 import type { Executed, MoveStep, Pose, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside, type Notices } from "../../parser/index.ts";
+import { TextError, WaitsOutside, type Notices, type DeclaredCell } from "../../parser/index.ts";
 import type { Condition, Job, Move, Position, Source } from "../read/syntax.ts";
 import { Memory, looksOutside } from "./memory.ts";
-import type { Context, ControllerState } from "./state.ts";
+import type { ControllerState } from "./state.ts";
 
 /** Instructions without a motion or a wait after which the job is taken to run on the spot for ever. */
 const INSTRUCTIONS_WITHOUT_MOTION = 100_000;
@@ -48,7 +48,7 @@ export abstract class ExecutedSteps {
     source: Source,
     state: ControllerState,
     signals: Signals | undefined,
-    met: Context["signals"],
+    met: DeclaredCell["signals"],
     notices?: Notices,
   ) {
     this.source = source;

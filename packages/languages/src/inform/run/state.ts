@@ -11,21 +11,13 @@ import {
   type MoveStep,
   type Pose,
   type Robot,
-  type SignalLine,
   type Speed,
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, type Notices } from "../../parser/index.ts";
+import { TextError, type Notices, type DeclaredCell } from "../../parser/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
 import { BORDERS, poseOf, type Arm } from "./arm.ts";
-
-/** Tools and frames by the names under which the steps know them. */
-export interface Context {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 
 /** Where corners begin by default, PL 0 … 4 [m]; further levels are set on the controller. */
 const LEVELS_M = [0, 0.0125, 0.025, 0.05, 0.1];
@@ -49,7 +41,7 @@ export class ControllerState {
   private readonly robot: Robot;
   private readonly arm: Arm;
   private readonly source: Source;
-  private readonly context: Context;
+  private readonly context: DeclaredCell;
   private readonly pulses: readonly number[] | undefined;
   private readonly worldFromVendor: Pose<"world", "vendor-world">;
   private readonly baseFromVendor: Pose<"base", "vendor-world">;
@@ -64,7 +56,7 @@ export class ControllerState {
     arm: Arm,
     source: Source,
     worldFromBase: Pose<"world", "base">,
-    context: Context,
+    context: DeclaredCell,
     pulses: readonly number[] | undefined,
     notices?: Notices,
   ) {

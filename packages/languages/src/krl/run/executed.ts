@@ -1,9 +1,9 @@
 import type { Executed, MoveStep, Signals, Step, TextFault, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside, textFault } from "../../parser/index.ts";
+import { TextError, WaitsOutside, textFault, type DeclaredCell } from "../../parser/index.ts";
 import type { Expression, Motion, Source, Statement } from "../read/syntax.ts";
 import type { Frame } from "./frame.ts";
 import { Lines } from "./signals.ts";
-import type { Context, ControllerState } from "./state.ts";
+import type { ControllerState } from "./state.ts";
 import type { Value } from "./values.ts";
 
 /** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
@@ -50,7 +50,7 @@ export abstract class ExecutedSteps {
   /** What a person should know of a run: by what it is about. */
   readonly notes = new Map<string, TextFault>();
 
-  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: Context["signals"]) {
+  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: DeclaredCell["signals"]) {
     this.source = source;
     this.state = state;
     this.lines = new Lines(source.signals, signals, met);

@@ -6,25 +6,17 @@ import {
   type MoveStep,
   type Pose,
   type Robot,
-  type SignalLine,
   type Speed,
   type Target,
   type TextPlace,
   type Vector3,
 } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, type DeclaredCell } from "../../parser/index.ts";
 import type { Motion } from "../read/syntax.ts";
 import { STATUS_SLACK, travel, type Axes } from "./axes.ts";
 import { componentsOf, frameOf, fromPose, inverted, times, toPose, type Frame } from "./frames.ts";
 import { System, type Named } from "./system.ts";
 import { component, toFrame, type Structure } from "./values.ts";
-
-/** Tools and frames by the names under which the steps know them. */
-export interface Context {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 
 const AXIS_NAMES = ["A1", "A2", "A3", "A4", "A5", "A6"] as const;
 
@@ -33,7 +25,7 @@ export class ControllerState {
   readonly system = new System();
   private readonly robot: Robot;
   private readonly axes: Axes;
-  private readonly context: Context;
+  private readonly context: DeclaredCell;
   private readonly worldFromRoot: Pose<"world", "root">;
   private readonly rootFromBase: Pose<"root", "base">;
   /** Where the flange is sent, in the controller's $WORLD, and the axis values there. */
@@ -43,7 +35,7 @@ export class ControllerState {
   private toolMet: { readonly of: Named | undefined; readonly name: string } = { of: undefined, name: "" };
   private baseMet: { readonly of: Named | undefined; readonly name: string } = { of: undefined, name: "" };
 
-  constructor(robot: Robot, axes: Axes, worldFromBase: Pose<"world", "base">, context: Context) {
+  constructor(robot: Robot, axes: Axes, worldFromBase: Pose<"world", "base">, context: DeclaredCell) {
     this.robot = robot;
     this.axes = axes;
     this.context = context;

@@ -213,4 +213,11 @@ export const saidByReaders: Sentences = {
     "Das Bild konnte nicht von der Kamera genommen werden: {why}.",
   "The camera was taken away or its permission withdrawn.":
     "Die Kamera wurde entfernt oder die Erlaubnis zurückgezogen.",
+  "The file is no JSON.": "Die Datei ist kein JSON.",
+  "The file is no lesson of version 1.": "Die Datei ist keine Übung der Version 1.",
+  "The lesson has no goals with a position and an axis of three numbers.":
+    "Die Übung hat keine Ziele mit Position und Achse aus je drei Zahlen.",
+  "The lesson lacks its tolerances, or time and way of whoever made it.":
+    "Der Übung fehlen die Toleranzen, oder Zeit und Weg der Vorlage.",
+  "The lesson says neither its name nor its robot.": "Die Übung nennt weder Namen noch Roboter.",
 };

@@ -1,4 +1,4 @@
-import type { TriangleMesh } from "@twincell/core";
+import type { TriangleMesh } from "./mesh.ts";
 import { fromBase64, toBase64 } from "./base64.ts";
 
 /** An imported mesh as a saved cell holds it. */

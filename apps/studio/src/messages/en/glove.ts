@@ -1,0 +1,31 @@
+/** A glove with a tracker on a serial line. */
+export const glove = {
+  title: "Glove",
+  command: "Glove: connect, calibrate, record …",
+  connect: "Connect …",
+  disconnect: "Disconnect",
+  unsupported:
+    "This browser has no serial lines. Use Chrome or Edge, or twincell demonstrate raw with a recorded file.",
+  "notOpened(why)": "The glove's line could not be opened: {why}",
+  lost: "The glove is gone. The robot was not moved.",
+  lostHint: "Plug it in and connect again; what was recorded until then is kept.",
+  notKept: "The browser could not keep the profile; it is there until the page closes.",
+  none: "No glove is connected. It sends lines at 115 200 baud (docs/glove.md).",
+  "reads(samples: number, hertz, dropped: number)":
+    "{samples, number} samples · {hertz} a second · {dropped, number} left out",
+  wearer: "Worn by",
+  nobody: "nobody yet",
+  fingers: ["Thumb", "Index", "Middle", "Ring", "Little"],
+  hand: { open: "open: places", closed: "closed: picks" },
+  calibrate: "New profile …",
+  sweepSays: "1. Open and close the hand fully, a few times.",
+  restSays: "2. Lay the hand still, then take the rest.",
+  rest: "Take the rest",
+  slopeSays: "3. Sensitivity of the tracker, from its data sheet.",
+  slope: "m/s² per volt",
+  name: "Name",
+  keep: "Keep profile",
+  "counts(n: number)": "{n} counts",
+  record: "Record",
+  stop: "Stop recording",
+};

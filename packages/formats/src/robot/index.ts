@@ -1,0 +1,1 @@
+export { mayBeRobot, robotFromFiles, type RobotRead } from "./robot-from-files.ts";
