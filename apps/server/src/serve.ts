@@ -84,7 +84,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   // A file that cannot be read is said before anything listens.
   if (options.connections !== undefined) readConnections(options.connections);
   const version = options.version ?? "";
-  const log = options.log ?? textLog(line => process.stderr.write(line));
+  const log = options.log ?? textLog(line => console.error(line.trimEnd()));
   const say = (sentence: string): void => {
     log.say("warning", "server", sentence);
   };
