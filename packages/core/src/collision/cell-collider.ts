@@ -311,9 +311,9 @@ export class CellCollider {
   }
 
   /**
-   * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints; and
-   * no two parts of it are asked to keep more than half the distance that they have there. Call it at a posture known to
-   * be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
+   * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints;
+   * and no two parts of it are asked to keep more than half the distance that they have there. Call it at a posture
+   * known to be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
    *
    * @returns the pairs that were learnt.
    */

@@ -202,8 +202,8 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
 export type CellErrors = Pick<CellGeometry, "shapeError_m" | "placeError_m">;
 
 /**
- * Two parts of a robot keep at least this [m], where its design leaves it: a robot follows its path to a few millimetres,
- * and a guard sees it now and then.
+ * Two parts of a robot keep at least this [m], where its design leaves it: a robot follows its path to a few
+ * millimetres, and a guard sees it now and then.
  */
 export const OWN_KEPT_M = 0.005;
 
@@ -212,8 +212,8 @@ export const OWN_KEPT_M = 0.005;
  * the shape error of the robot once, because only the link is drawn from fitted shapes; and between what the arm moves
  * and an object that stands, how far the robot may be from where it is drawn (row T-64).
  *
- * Two parts of the robot keep the margin and never less than `OWN_KEPT_M`, but no more than half of what they have where
- * the robot is known to be free (`allowContactsAt`). They get no shape error: twice the error (40 mm on many arms) is
+ * Two parts of the robot keep the margin and never less than `OWN_KEPT_M`, but no more than half of what they have
+ * where the robot is known to be free (`allowContactsAt`). They get no shape error: twice the error (40 mm on many arms) is
  * more than the maker leaves between links that fold past each other, so it would stop postures that every arm takes
  * daily; and where drawn links do come close, it is the maker's joint limits and `allowContactsAt` that speak for the
  * true castings. Tools are drawn as they are.
