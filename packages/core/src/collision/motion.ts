@@ -213,10 +213,10 @@ export const OWN_KEPT_M = 0.005;
  * and an object that stands, how far the robot may be from where it is drawn (row T-64).
  *
  * Two parts of the robot keep the margin and never less than `OWN_KEPT_M`, but no more than half of what they have
- * where the robot is known to be free (`allowContactsAt`). They get no shape error: twice the error (40 mm on many arms) is
- * more than the maker leaves between links that fold past each other, so it would stop postures that every arm takes
- * daily; and where drawn links do come close, it is the maker's joint limits and `allowContactsAt` that speak for the
- * true castings. Tools are drawn as they are.
+ * where the robot is known to be free (`allowContactsAt`). They get no shape error: twice the error (40 mm on many
+ * arms) is more than the maker leaves between links that fold past each other, so it would stop postures that every
+ * arm takes daily; and where drawn links do come close, it is the maker's joint limits and `allowContactsAt` that
+ * speak for the true castings. Tools are drawn as they are.
  */
 export function marginOf(
   { a, b, contact, room_m }: SolidPair,
