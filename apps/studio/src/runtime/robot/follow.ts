@@ -5,8 +5,9 @@ import { flangeFromTcpOf, robotOf } from "../../stores/document.ts";
 import { libraryStore } from "../../stores/library.ts";
 import { followPoses, showJoints } from "../live.ts";
 
-const isUntaught = ({ programs }: CellDocument): boolean =>
-  programs.every(program => !isTextProgram(program) && program.steps.length === 0);
+/** Nothing is taught and nothing stands in the cell yet. */
+const isBare = ({ programs, objects }: CellDocument): boolean =>
+  objects.length === 0 && programs.every(program => !isTextProgram(program) && program.steps.length === 0);
 
 /** Keeps the poses of `live` in step with the document: another robot, another place, another tool. */
 export function startFollowing(): () => void {
@@ -24,7 +25,7 @@ export function startFollowing(): () => void {
     const { worldFromBase } = document.robot;
     const { current } = libraryStore.getState();
     if (current === cellId && robot.id === robotId && flangeFromTcp === toolPose && worldFromBase === basePose) return;
-    const another = robot.id !== robotId || (current !== cellId && isUntaught(document));
+    const another = robot.id !== robotId || (current !== cellId && isBare(document));
     cellId = current;
     robotId = robot.id;
     toolPose = flangeFromTcp;
@@ -38,12 +39,12 @@ export function startFollowing(): () => void {
         tcp: (baseFromFlange, out) => {
           compose(compose(worldFromBase, baseFromFlange, worldFromFlange), flangeFromTcp, out);
         },
-        // Row N-69: the program starts at Do Ready.
       },
       another,
     );
-    // A stretched arm cannot go down, and says nothing of what it reaches: where nothing is taught it stands ready.
-    if (another && isUntaught(document)) showJoints(readyPosture(robot));
+    // Row N-69: a robot starts at home, Do Ready. A stretched arm cannot go down, though, and says nothing of what it
+    // reaches: in a cell without anything it stands bent.
+    if (another && isBare(document)) showJoints(readyPosture(robot));
   };
   follow();
   return cellStore.subscribe(follow);
