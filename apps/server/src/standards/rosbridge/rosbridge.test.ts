@@ -20,6 +20,8 @@ const point = (by_rad: number, sec: number, nanosec = 0) => ({
 });
 const goal = (...points: readonly object[]) => ({ trajectory: { joint_names, points } });
 interface Sample {
+  /** On the robot's own clock: it goes on evenly however busy the machine is. */
+  readonly time_s: number;
   readonly q_rad: number[];
   readonly moving: boolean;
 }
@@ -79,10 +81,10 @@ test.skipIf(missing)(
     script = foreignScript("ros_client.py", open.port("rosbridge"));
     for (let i = 0; i < 3; i++) await script.next();
     await confirmed();
-    const began_s = performance.now() / 1000;
+    const began_s = (await sampleNow()).time_s;
     script.say({ goal: goal(point(0, 0), point(0.3, 1), point(0.6, 2, 500_000_000)) });
     expect(await script.next()).toMatchObject({ out: { result: { values: { error_code: 0 } } } });
-    expect(performance.now() / 1000 - began_s).toBeGreaterThan(2.4);
+    expect((await sampleNow()).time_s - began_s).toBeGreaterThan(2.4);
     expect((await sampleNow()).q_rad[0]).toBeCloseTo(turned(0.6)[0]!, 3);
 
     script.say({ goal: goal(point(3, 0, 100_000_000)) });
