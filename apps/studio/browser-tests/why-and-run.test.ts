@@ -168,7 +168,9 @@ test("L-39 L-40 L-41 path and time line change colour inside a move at limit −
     expect(await fifthNow()).toBeLessThan(high);
   }
   // Row L-40: the offender is red, alone.
-  await expect.poll(() => page.locator(".joint-line[data-near='bad'] .axis-name").allTextContents()).toEqual(["J5"]);
+  await expect
+    .poll(() => page.locator(".joint-line[data-near='bad'] .axis-name").allTextContents(), { timeout: 20_000 })
+    .toEqual(["J5"]);
   await page.screenshot({ path: picture("within-a-move") });
   await page.evaluate(() => window.twincell.seek(0));
   await page.keyboard.press("F8");

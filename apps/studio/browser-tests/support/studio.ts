@@ -4,8 +4,7 @@ import { fileURLToPath } from "node:url";
 import type {} from "../../src/console.ts";
 import type {} from "../../src/scene/scene-probe.tsx";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
-import { onTestFinished } from "vitest";
-import { getCurrentTest } from "vitest/suite";
+import { onTestFinished, TestRunner } from "vitest";
 export type { Page };
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
@@ -105,7 +104,7 @@ export class Studio {
       colorScheme: options.theme ?? "dark",
       locale: options.locale ?? "en-US",
     });
-    if (getCurrentTest() !== undefined) onTestFinished(() => context.close());
+    if (TestRunner.getCurrentTest() !== undefined) onTestFinished(() => context.close());
     const page = await context.newPage();
     const problems: string[] = [];
     page.on("pageerror", problem => problems.push(problem.message));
