@@ -155,7 +155,7 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.screenshot({ path: picture("history-cycles"), timeout: 90_000 });
 
   await page.getByRole("radio", { name: "Figures" }).dispatchEvent("click");
-  await page.getByText(/2159 cycles, 40\.00 s median/).waitFor();
+  await page.getByText(/2,159 cycles, 40\.00 s median/).waitFor();
   await page.getByText(/The load of joint 2 rose by/).waitFor();
   expect(await page.getByText("Service intervals: not reported.").count()).toBe(1);
   // A person says what stands in the robot's papers, and is told when it is time.
@@ -284,7 +284,7 @@ test("a phone looks back too; a file that is no recording is one sentence", asyn
   await standsThere(page);
   await page.screenshot({ path: picture("history-phone") });
   await page.getByRole("radio", { name: "Figures" }).dispatchEvent("click");
-  await page.getByText(/2159 cycles/).waitFor();
+  await page.getByText(/2,159 cycles/).waitFor();
   await page.screenshot({ path: picture("history-phone-figures") });
   const letter = join(folder, "letter.mcap");
   writeFileSync(letter, "Dear Sir or Madam");
