@@ -98,6 +98,7 @@ export default defineConfig({
           page("start.md"),
           page("tour.md"),
           page("headsets.md"),
+          page("glove.md"),
           page("text-programs.md"),
           page("robot-files.md"),
         ],
