@@ -11,6 +11,10 @@ import {
 } from "@twincell/core";
 import type { AdapterMotion } from "./adapter.ts";
 
+/** A share of joint speed is found for a duration to this part of it, in no more rounds than these. */
+const SAME_TIME = 1e-3;
+const MOST_ROUNDS = 30;
+
 export type MotionAnswer =
   | { readonly kind: "motion"; readonly motion: AdapterMotion }
   | { readonly kind: "refused"; readonly why: Refusal };
@@ -75,8 +79,16 @@ export class MotionMaker {
     duration_s: number,
   ): number {
     if ("ratio" in step.speed) return step.speed.ratio;
-    const full = this.planner.plan([{ ...move, step: { ...step, speed: { ratio: 1 } } }], from_rad);
-    return full.kind === "timed" && duration_s > 0 ? Math.min(1, full.run.duration_s / duration_s) : 1;
+    // Ramps take their time at any speed: the share is mended by what it still misses, from full speed downwards.
+    let share = 1;
+    for (let round = 0; round < MOST_ROUNDS; round++) {
+      const tried = this.planner.plan([{ ...move, step: { ...step, speed: { ratio: share } } }], from_rad);
+      if (tried.kind !== "timed" || !(duration_s > 0)) return 1;
+      const took = tried.run.duration_s / duration_s;
+      if (Math.abs(took - 1) < SAME_TIME || (share === 1 && took > 1)) break;
+      share = Math.min(1, share * took);
+    }
+    return share;
   }
 
   /** Length of the path of the tool [m]: a slow run at 1 m/s takes as many seconds, its ramps apart. */
