@@ -44,7 +44,7 @@ test("the types of the TypeScript client are those of the server's schemas; afte
   expect(readFileSync(join(client, "src/api.ts"), "utf8")).toBe(formatted.stdout);
 });
 
-test("the TypeScript client is packed, installed and type-checked in a project of its own; it connects, streams, checks, plans, moves, is refused, is stopped, runs and fetches the recording", async () => {
+test("the TypeScript client is packed, installed and type-checked in a project of its own; it connects, streams, checks, plans, moves, is refused, is stopped and fetches the recording", async () => {
   const project = mkdtempSync(join(tmpdir(), "twincell-client-"));
   const run = (command: string, args: readonly string[], cwd: string): void => {
     const done = spawnSync(command, args, { cwd, encoding: "utf8", shell: process.platform === "win32" });

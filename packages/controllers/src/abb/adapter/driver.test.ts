@@ -236,7 +236,8 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
       kind: "refused",
       why: {
         code: "abb.no-such-signal",
-        sentence: expect.stringContaining('The controller has no signal "lamp".') as string,
+        sentence:
+          '“s” cannot be carried out over this connection: The controller has no signal "lamp". Nothing has moved.',
       },
     });
     real.signals!.write("DI1", true);
