@@ -1,5 +1,4 @@
 import { describe, expect, test } from "vitest";
-// @ts-expect-error a script without types
 import { clonesIn, filesOf, LEAST_LINES, tokensOf } from "./clones.mjs";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { spawnSync } from "node:child_process";
@@ -63,7 +62,7 @@ describe("the clone detector", () => {
   });
 
   test("tells templates, regular expressions and divisions apart", () => {
-    const words = (text: string) => tokensOf(text).map(({ word }: { word: string }) => word);
+    const words = (text: string) => tokensOf(text).map(({ word }) => word);
     expect(words("a = `x${{ b: 1 }.b}y`;")).toEqual(["a", "=", "`x${", "{", "b", ":", "1", "}", ".", "b", "}y`", ";"]);
     expect(words("a = /[/'\"]/g; b = c / d;")).toEqual(["a", "=", "/[/'\"]/g", ";", "b", "=", "c", "/", "d", ";"]);
     expect(words('import * as x from "y"; export * from "z"; export const { w } = x;')).toEqual(

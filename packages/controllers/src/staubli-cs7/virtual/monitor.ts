@@ -203,6 +203,19 @@ class Monitor {
   command(command: string, rest: string): Said | null {
     return this.listed(command, rest) ?? this.ofPower(command, rest) ?? this.ofProgram(command, rest);
   }
+  private listedPoints(): string {
+    const rows = [...this.programs.points].map(
+      ([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`,
+    );
+    return `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${rows.join("")}`;
+  }
+  private listedLines(): string {
+    const bit = (line: string): number => (this.arm.signals.read(line) === true ? 1 : 0);
+    return Array.from({ length: 8 }, (_, i) => {
+      const [output, input] = [`out_${i + 1}`, `in_${1001 + i}`];
+      return `${output} ${bit(output)}   ${input} ${bit(input)}\r\n`;
+    }).join("");
+  }
   private listed(command: string, rest: string): Said | null {
     switch (command) {
       case "WHERE":
@@ -210,9 +223,7 @@ class Monitor {
       case "LISTR":
         return this.listReals(rest);
       case "LISTL":
-        return {
-          text: `   X/J1      Y/J2      Z/J3      y/J4      p/J5      r/J6\r\n${[...this.programs.points].map(([name, values]) => ` ${name.toLowerCase()} ${values.map(each => each.toFixed(3)).join("   ")}\r\n`).join("")}`,
-        };
+        return { text: this.listedPoints() };
       case "DIRECTORY":
         return {
           text:
@@ -223,16 +234,12 @@ class Monitor {
         };
       case "STATUS":
         return {
-          text: `Robot ${stateName(this.machine.state)}}, speed ${this.machine.speed}, task 1 ${this.programs.isRunning ? "executing" : "idle"}\r\n`,
+          text:
+            `Robot ${stateName(this.machine.state)}, speed ${this.machine.speed}, ` +
+            `task 1 ${this.programs.isRunning ? "executing" : "idle"}\r\n`,
         };
       case "IO":
-        return {
-          text: Array.from(
-            { length: 8 },
-            (_, i) =>
-              `out_${i + 1} ${this.arm.signals.read(`out_${i + 1}`) === true ? 1 : 0}   in_${1001 + i} ${this.arm.signals.read(`in_${1001 + i}`) === true ? 1 : 0}\r\n`,
-          ).join(""),
-        };
+        return { text: this.listedLines() };
       default:
         return null;
     }
