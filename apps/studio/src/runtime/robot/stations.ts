@@ -9,14 +9,12 @@ import {
   type Program,
   type Robot,
 } from "@twincell/core";
-import { auditNote, type EventOf } from "@twincell/protocol";
+import type { EventOf } from "@twincell/protocol";
 import type { CellDocument } from "@twincell/project";
-import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { createVirtualPendantLink, type VirtualPendantLink } from "../../virtual-pendant/link.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
-import { historyStore, type RunEnding } from "../../stores/history.ts";
 import { notify } from "../../stores/notices.ts";
 import {
   changeStation,
@@ -29,9 +27,9 @@ import { shortName } from "../../stores/robot.ts";
 import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
-import { browserRunStorage, listRuns, openRunFile, type RunFile } from "../history/archive.ts";
 import { noteOther } from "./drawn-robots.ts";
 import { hostAt, onServers, type Told } from "./station-hosts.ts";
+import { beginRecording, endRecording, recordAct, recordingOf } from "./station-recordings.ts";
 
 /** The fast state of a station: written in place, read by the frame loop. */
 export interface StationLive {
@@ -52,16 +50,8 @@ const newLive = (robot: Robot): StationLive => ({
   sent_s: 0,
   ahead: { q_rad: Float64Array.from(robot.home_rad), revision: 0 },
 });
-interface Recording {
-  readonly recorder: RunRecorder;
-  readonly file: RunFile;
-  readonly note: (ending: RunEnding) => void;
-}
-
-const shelf = browserRunStorage();
 const cabinets = new Map<string, VirtualPendantLink>();
 const lives = new Map<string, StationLive>();
-const recordings = new Map<string, Recording>();
 const told_ms = new Map<string, number>();
 const alive = new Map<string, number>();
 const TELL_EVERY_MS = 100;
@@ -259,7 +249,7 @@ export async function runStation(id: string, despite: readonly string[] = []): P
   if (wanted.unreached.length > 0)
     return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
   changeStation(id, { running: true, notice: "" });
-  const recording = beginRecording(station, live, wanted.program.name);
+  const recording = beginRecording(station, live.robot, wanted.program.name);
   const outcome = await host.ask({
     type: "run",
     station: id,
@@ -317,7 +307,7 @@ export async function startSynchronized(
     return refusedAs(words.stations.twoClocks, words.stations.twoClocksHint);
   const running = group.map(({ station, live, program }) => {
     changeStation(station.id, { running: true, notice: "" });
-    return { id: station.id, recording: beginRecording(station, live, program.name) };
+    return { id: station.id, recording: beginRecording(station, live.robot, program.name) };
   });
   for (const id of ids) groupEnds.delete(id);
   const outcome = await host.ask({
@@ -335,60 +325,6 @@ export async function startSynchronized(
     changeStation(id, { running: false, notice: own.kind === "done" ? "" : own.why.sentence });
   }
   return outcome;
-}
-
-function beginRecording(station: StationState, { robot }: StationLive, program: string): Recording {
-  const startedAt = new Date();
-  const run = `${startedAt.toISOString().replace(/[:.]/g, "-")} ${station.id}`;
-  const file = openRunFile(shelf, run);
-  const cell = cellStore.getState().document?.name ?? "";
-  const recorder = createRunRecorder(file.sink, {
-    robot,
-    startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n,
-    program,
-    cell,
-    chunk_s: 0.5,
-  });
-  const note = (ending: RunEnding): void => {
-    file.note({
-      id: run,
-      name: `${station.name} · ${program}`,
-      startedAt: startedAt.toISOString(),
-      duration_s: (Date.now() - startedAt.getTime()) / 1000,
-      bytes: file.sink.position,
-      ending,
-      // The robot of the cell is shown as itself.
-      ...(connectionStore.getState().station === station.id
-        ? {}
-        : { station: { robot: station.robot, stand: station.stand } }),
-    });
-  };
-  note("running");
-  recorder.event("run", `The run of ${program} began.`);
-  const recording = { recorder, file, note };
-  recordings.set(station.id, recording);
-  return recording;
-}
-async function endRecording(id: string, { recorder, file, note }: Recording, outcome: CommandOutcome): Promise<void> {
-  recordings.delete(id);
-  recorder.event(
-    outcome.kind,
-    outcome.kind === "done" ? "The run is done." : outcome.why.sentence,
-    outcome.kind === "done" ? "info" : "warning",
-  );
-  recorder.finish();
-  note(outcome.kind);
-  const problem = (await file.settled()) ?? recorder.problem?.sentence ?? null;
-  if (problem !== null) changeStation(id, { notice: problem });
-  historyStore.setState({ runs: await listRuns(shelf) });
-}
-
-/** Everything that anybody does at that station while its run is recorded. */
-function recordAct(message: EventOf<"act">): void {
-  const recorder = recordings.get(message.station)?.recorder;
-  const said = auditNote(message);
-  if (said?.kind === "command") recorder?.note("command", said.note);
-  else if (said) recorder?.note("operator", said.note);
 }
 
 /** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
@@ -423,17 +359,15 @@ function take(place: ServerAddress, message: Told): void {
       break;
     case "notice":
       changeStation(message.station, { notice: message.why.sentence });
-      recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning");
+      recordingOf(message.station)?.event(message.why.code, message.why.sentence, "warning");
       break;
     case "began":
       notify("info", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
       for (const id of message.stations)
-        recordings
-          .get(id)
-          ?.recorder.event(
-            "group.began",
-            words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)),
-          );
+        recordingOf(id)?.event(
+          "group.began",
+          words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)),
+        );
       break;
     case "ended":
       for (const { station, outcome } of message.stations) groupEnds.set(station, outcome);
@@ -554,7 +488,7 @@ function show(sample: EventOf<"sample">): void {
   listenToSample(sample.station, live.q_rad);
   const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } =
     sample;
-  recordings.get(sample.station)?.recorder.record({
+  recordingOf(sample.station)?.record({
     sequence,
     time_s,
     q_rad: live.q_rad,
