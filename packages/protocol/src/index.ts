@@ -3,6 +3,7 @@ export * from "./channel.ts";
 export * from "./ask.ts";
 export * from "./tell.ts";
 export * from "./read.ts";
+export { refused } from "./outcome.ts";
 export * from "./served.ts";
 export * from "./host.ts";
 export * from "./client.ts";

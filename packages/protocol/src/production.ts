@@ -1,5 +1,13 @@
-import type { RobotCommander } from "@twincell/core";
-import { isBlock, listsOf, type CommandOutcome, type Program, type Refusal, type Step } from "@twincell/core";
+import {
+  isBlock,
+  listsOf,
+  type CommandOutcome,
+  type Program,
+  type Refusal,
+  type RobotCommander,
+  type Step,
+} from "@twincell/core";
+import { DONE, refused } from "./outcome.ts";
 import type { ServedConnection } from "./served.ts";
 
 /** How a production stands, as everybody who looks is told. */
@@ -47,11 +55,6 @@ export interface Production {
   stopped(): void;
 }
 
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (code: string, sentence: string, hint: string): CommandOutcome => ({
-  kind: "refused",
-  why: { code, sentence, hint },
-});
 const STOPPED: Refusal = {
   code: "production.stopped",
   sentence: "The production was stopped while it was held.",

@@ -1,6 +1,6 @@
-import type { RobotCommander } from "@twincell/core";
-import { parseProgram, type CommandOutcome } from "@twincell/core";
+import { parseProgram, type CommandOutcome, type RobotCommander } from "@twincell/core";
 import type { RequestOf } from "./ask.ts";
+import { refused } from "./outcome.ts";
 import type { ServedConnection } from "./served.ts";
 import {
   createProduction,
@@ -14,10 +14,6 @@ import type { EventOf } from "./tell.ts";
 export type ProductionRequest = RequestOf<
   "produce" | "replace" | "intervene" | "resume" | "single-step" | "breakpoints"
 >;
-const refused = (code: string, sentence: string, hint: string): CommandOutcome => ({
-  kind: "refused",
-  why: { code, sentence, hint },
-});
 const NONE = refused("production.none", "No production runs on this robot.", "Begin one.");
 
 /** The productions of a host, one a station. */

@@ -1,12 +1,9 @@
 import { mkdir, readdir, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { parseProgram, type CommandOutcome } from "@twincell/core";
+import { refused } from "@twincell/protocol";
 import { openDocument } from "@twincell/project";
 
-const refused = (code: string, sentence: string, hint: string): CommandOutcome => ({
-  kind: "refused",
-  why: { code, sentence, hint },
-});
 const missing = (problem: unknown): boolean => (problem as NodeJS.ErrnoException).code === "ENOENT";
 
 /** What is wrong with a document of that kind, or null. */

@@ -1,6 +1,13 @@
 import { randomBytes } from "node:crypto";
 import type { CommandOutcome, Scheduler } from "@twincell/core";
-import { createClient, type Client, type Request, type RobotServer, type ServedConnection } from "@twincell/protocol";
+import {
+  refused,
+  createClient,
+  type Client,
+  type Request,
+  type RobotServer,
+  type ServedConnection,
+} from "@twincell/protocol";
 
 export interface Lease {
   readonly token: string;
@@ -24,10 +31,6 @@ interface Heard {
   signals: unknown;
   samples: number;
 }
-const refused = (code: string, sentence: string, hint: string): CommandOutcome => ({
-  kind: "refused",
-  why: { code, sentence, hint },
-});
 const TOLD = /^\{"type":"(\w+)","(?:station|id)":("(?:[^"\\]|\\.)*")/;
 /** How often leases say that they are alive, at most [s]: well within the 80 ms of the guard. */
 const BEAT_S = 0.01;

@@ -1,4 +1,5 @@
 import type { CommandOutcome } from "@twincell/core";
+import { refused } from "@twincell/protocol";
 import { z } from "zod";
 import type { StandardContext } from "../standards/standard.ts";
 import { mayUse } from "../people/tokens.ts";
@@ -19,10 +20,6 @@ export const fleetCommand = z.object({
 export type FleetCommand = z.infer<typeof fleetCommand>;
 const BEGUN = "begun";
 const LEASE_S = 30;
-const refused = (code: string, sentence: string, hint: string): CommandOutcome => ({
-  kind: "refused",
-  why: { code, sentence, hint },
-});
 
 /**
  * Carries out commands that come through the cluster, each once: whoever is the first to write its id there does it,
