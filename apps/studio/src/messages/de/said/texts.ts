@@ -71,4 +71,9 @@ export const saidByTexts: Sentences = {
   "There is no driver for “{brand}”.": "Für „{brand}“ gibt es keinen Treiber.",
   "The connection to the plug-in is gone.": "Die Verbindung zum Plug-in ist weg.",
   "Start the plug-in, or look at its address.": "Das Plug-in starten, oder seine Adresse prüfen.",
+  "{name} is called here and is in none of the files: give the file that holds it as well, or let the call do nothing.":
+    "{name} wird hier aufgerufen und steht in keiner der Dateien: die Datei dazu auch öffnen, oder den Aufruf " +
+    "nichts tun lassen.",
+  "{name} is called here and is in none of the files: what it does, motions too, is not executed.":
+    "{name} wird hier aufgerufen und steht in keiner der Dateien: Was es tut, auch Bewegungen, wird nicht ausgeführt.",
 };
