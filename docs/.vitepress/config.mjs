@@ -9,6 +9,11 @@ const docs = fileURLToPath(new URL("..", import.meta.url));
 const base = "/docs/";
 const scripts = new Map();
 
+/** Lists that have every word somewhere would stand before every answer. */
+const UNSEARCHED = /^(public-api\/|requirements\.md)/;
+/** The mark of the studio: a rounded teal square. */
+const ICON = `data:image/svg+xml,${encodeURIComponent('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 16 16"><rect width="16" height="16" rx="3.5" fill="#3fb8b3"/></svg>')}`;
+
 /** The pages of a folder by their first heading. */
 const pagesOf = folder =>
   readdirSync(join(docs, folder))
@@ -54,6 +59,7 @@ export default defineConfig({
   title: "Twincell",
   description: "Teach, simulate, check and twin industrial robot cells.",
   lang: "en",
+  head: [["link", { rel: "icon", href: ICON }]],
   base,
   cleanUrls: false,
   rewrites: { "README.md": "index.md", ":folder/README.md": ":folder/index.md" },
@@ -86,8 +92,7 @@ export default defineConfig({
     search: {
       provider: "local",
       options: {
-        _render: (source, env, markdown) =>
-          env.relativePath.startsWith("public-api/") ? "" : markdown.render(source, env),
+        _render: (source, env, markdown) => (UNSEARCHED.test(env.relativePath) ? "" : markdown.render(source, env)),
       },
     },
     outline: [2, 3],

@@ -108,11 +108,11 @@ export default function GloveDialog() {
               <Bar
                 key={finger}
                 label={finger}
-                share={(state.bends_rad[i] ?? 0) / (Math.PI / 2)}
-                says={`${fixed(degrees(state.bends_rad[i] ?? 0), 0)}°`}
+                share={isOpen ? (state.bends_rad[i] ?? 0) / (Math.PI / 2) : 0}
+                says={isOpen ? `${fixed(degrees(state.bends_rad[i] ?? 0), 0)}°` : "–"}
               />
             ))}
-            <p className="small dim">{state.closed ? words.glove.hand.closed : words.glove.hand.open}</p>
+            {isOpen && <p className="small dim">{state.closed ? words.glove.hand.closed : words.glove.hand.open}</p>}
             <button className="btn" disabled={!isOpen || state.recording} onClick={beginCalibration}>
               {words.glove.calibrate}
             </button>

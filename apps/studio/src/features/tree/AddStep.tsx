@@ -49,7 +49,7 @@ export function AddStep() {
         </button>
       </DropdownMenu.Trigger>
       <DropdownMenu.Portal>
-        <DropdownMenu.Content className="menu" align="end">
+        <DropdownMenu.Content className="menu" align="end" collisionPadding={8}>
           {IDS.map((id, i) => {
             if (id === "") return <DropdownMenu.Separator key={i} className="menu-line" />;
             if (id === BRING) return <BringIn key={id} />;
