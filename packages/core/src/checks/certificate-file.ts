@@ -49,40 +49,56 @@ export function readCertificate(text: string): ReadCertificate {
   const read: SegmentCertificate[] = [];
   let count = 0;
   for (const [i, segment] of (segments as unknown[]).entries()) {
-    const where = `segments[${i}]`;
-    if (
-      !isRecord(segment) ||
-      typeof segment.step !== "string" ||
-      !isNumber(segment.start_s) ||
-      !isNumber(segment.from) ||
-      !isNumber(segment.to)
-    )
-      return not(`${where}: step, start_s, from and to are expected.`);
-    const { step, start_s, from, to, clearance_m } = segment;
-    if (clearance_m !== null && !isNumber(clearance_m))
-      return not(`${where}.clearance_m: a number or null is expected.`);
-    if (!Array.isArray(segment.pieces)) return not(`${where}.pieces: a list is expected.`);
-    const pieces: CertifiedPiece[] = [];
-    if ((count += segment.pieces.length) > MAX_PIECES)
-      return not(`${where}: more than ${MAX_PIECES} pieces are not read.`);
-    for (const [k, piece] of (segment.pieces as unknown[]).entries()) {
-      if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
-        return not(`${where}.pieces[${k}]: five numbers are expected.`);
-      const [a, b, start, end, atLeast_m] = piece as [number, number, number, number, number];
-      const nameA: unknown = solids[a];
-      const nameB: unknown = solids[b];
-      if (typeof nameA !== "string" || typeof nameB !== "string")
-        return not(`${where}.pieces[${k}]: there is no such solid.`);
-      if (!(end >= start) || atLeast_m < 0)
-        return not(`${where}.pieces[${k}]: a piece ends after it begins and claims 0 or more.`);
-      pieces.push({ a: nameA, b: nameB, from: start, to: end, atLeast_m });
-    }
-    read.push({ step, start_s, from, to, clearance_m: clearance_m ?? Infinity, pieces });
+    const one = readSegment(segment, `segments[${i}]`, solids as string[], MAX_PIECES - count);
+    if ("kind" in one) return one;
+    count += one.pieces.length;
+    read.push(one);
   }
   return { kind: "certificate", certificate: { robot, program, margin_m, segments: read } };
 }
 
-const not = (sentence: string): ReadCertificate => ({ kind: "not-a-certificate", sentence });
+type NotCertificate = Extract<ReadCertificate, { readonly kind: "not-a-certificate" }>;
+
+/** @param left  pieces that may still be read. */
+function readSegment(
+  segment: unknown,
+  where: string,
+  solids: readonly string[],
+  left: number,
+): SegmentCertificate | NotCertificate {
+  if (
+    !isRecord(segment) ||
+    typeof segment.step !== "string" ||
+    !isNumber(segment.start_s) ||
+    !isNumber(segment.from) ||
+    !isNumber(segment.to)
+  )
+    return not(`${where}: step, start_s, from and to are expected.`);
+  const { step, start_s, from, to, clearance_m } = segment;
+  if (clearance_m !== null && !isNumber(clearance_m)) return not(`${where}.clearance_m: a number or null is expected.`);
+  if (!Array.isArray(segment.pieces)) return not(`${where}.pieces: a list is expected.`);
+  if (segment.pieces.length > left) return not(`${where}: more than ${MAX_PIECES} pieces are not read.`);
+  const pieces: CertifiedPiece[] = [];
+  for (const [k, piece] of (segment.pieces as unknown[]).entries()) {
+    const one = readPiece(piece, `${where}.pieces[${k}]`, solids);
+    if ("kind" in one) return one;
+    pieces.push(one);
+  }
+  return { step, start_s, from, to, clearance_m: clearance_m ?? Infinity, pieces };
+}
+
+function readPiece(piece: unknown, where: string, solids: readonly string[]): CertifiedPiece | NotCertificate {
+  if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
+    return not(`${where}: five numbers are expected.`);
+  const [a, b, start, end, atLeast_m] = piece as [number, number, number, number, number];
+  const nameA = solids[a];
+  const nameB = solids[b];
+  if (nameA === undefined || nameB === undefined) return not(`${where}: there is no such solid.`);
+  if (!(end >= start) || atLeast_m < 0) return not(`${where}: a piece ends after it begins and claims 0 or more.`);
+  return { a: nameA, b: nameB, from: start, to: end, atLeast_m };
+}
+
+const not = (sentence: string): NotCertificate => ({ kind: "not-a-certificate", sentence });
 const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> =>
   typeof value === "object" && value !== null && !Array.isArray(value);
 const isNumber = (value: unknown): value is number => typeof value === "number" && Number.isFinite(value);

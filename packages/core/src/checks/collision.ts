@@ -21,9 +21,9 @@ export interface CollisionOptions {
   /** Distance the robot keeps from the cell and its own parts from each other, as `marginOf` says [m]. */
   readonly margin_m: number;
   /** Receives the proof of every motion that is clear. */
-  readonly certificates?: SegmentCertificate[];
-  readonly onProgress?: (share: number) => void;
-  readonly cancelled?: () => boolean;
+  readonly certificates?: SegmentCertificate[] | undefined;
+  readonly onProgress?: ((share: number) => void) | undefined;
+  readonly cancelled?: (() => boolean) | undefined;
 }
 
 /** Heights a target is raised by to get clear [m]. */
@@ -77,30 +77,13 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     }
     options.onProgress?.(i / all.length);
     i++;
-    const { verdict, certificate } =
-      options.certificates === undefined
-        ? { verdict: prover.prove(segment, stretches), certificate: null }
-        : prover.certify(segment, stretches);
-    if (certificate !== null)
-      options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
+    const verdict = prove(prover, segment, stretches, options.certificates);
     if (verdict.kind === "undecided") unproven.add(segment.step);
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
-    const at_s = segment.start_s + verdict.at;
-    const sentence = sentenceOf(verdict, cell, parts.held, at_s, margin_m);
-    const move = scene.layout.moves.get(segment.step);
-    const repairs =
-      move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
+    const sentence = sentenceOf(verdict, cell, parts.held, segment.start_s + verdict.at, margin_m);
+    addContact(scene, segment, verdict, sentence, repaired < MOST_REPAIRED ? prover : undefined);
     repaired++;
-    scene.add(segment.step, "bad", {
-      code: "collision.contact",
-      value: verdict.distance_m,
-      limit: verdict.margin_m,
-      unit: "m",
-      at_s,
-      sentence,
-      repairs,
-    });
   }
   for (const { corner, found: inCorner, held } of rounded)
     if (!found.has(corner.step) && !found.has(corner.next))
@@ -119,6 +102,39 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
 }
 
 type Contact = Extract<MotionVerdict, { kind: "contact" }>;
+
+/** The verdict on one motion; the proof of a clear one goes to `certificates`, where these are wanted. */
+function prove(
+  prover: Prover,
+  segment: MotionSegment,
+  stretches: readonly Stretch[],
+  certificates: SegmentCertificate[] | undefined,
+): MotionVerdict {
+  if (certificates === undefined) return prover.prove(segment, stretches);
+  const { verdict, certificate } = prover.certify(segment, stretches);
+  if (certificate !== null) certificates.push({ step: segment.step, start_s: segment.start_s, ...certificate });
+  return verdict;
+}
+
+/** A motion that touches something or comes too near; with a prover, with ways out that it proves to be free. */
+function addContact(
+  scene: CheckScene,
+  segment: MotionSegment,
+  contact: Contact,
+  sentence: string,
+  prover: Prover | undefined,
+): void {
+  const move = scene.layout.moves.get(segment.step);
+  scene.add(segment.step, "bad", {
+    code: "collision.contact",
+    value: contact.distance_m,
+    limit: contact.margin_m,
+    unit: "m",
+    at_s: segment.start_s + contact.at,
+    sentence,
+    repairs: move === undefined || !prover ? [] : collisionRepairs(scene, move, prover, segment, contact.at),
+  });
+}
 
 /** What a corner may come too near to, where neither the motion before it nor the one behind does as planned. */
 function addCorner(
