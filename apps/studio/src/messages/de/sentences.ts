@@ -2,6 +2,7 @@ import type { Sentences } from "../sentences.ts";
 import { saidByChecks } from "./said/checks.ts";
 import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
+import { saidInRefusals } from "./said/refusals.ts";
 import { saidByRobots } from "./said/robots.ts";
 import { saidByTexts } from "./said/texts.ts";
 
@@ -12,4 +13,5 @@ export const sentences: Sentences = {
   ...saidByReaders,
   ...saidByTexts,
   ...saidByExport,
+  ...saidInRefusals,
 };
