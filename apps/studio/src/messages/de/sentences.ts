@@ -1,5 +1,6 @@
 import type { Sentences } from "../sentences.ts";
 import { saidByChecks } from "./said/checks.ts";
+import { saidByDrivers } from "./said/drivers.ts";
 import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidInRefusals } from "./said/refusals.ts";
@@ -14,4 +15,5 @@ export const sentences: Sentences = {
   ...saidByTexts,
   ...saidByExport,
   ...saidInRefusals,
+  ...saidByDrivers,
 };

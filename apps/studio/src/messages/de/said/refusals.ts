@@ -83,9 +83,9 @@ export const saidInRefusals: Sentences = {
   "Too many wrong passwords came from this address.": "Von dieser Adresse kamen zu viele falsche Passwörter.",
   "Wait {seconds} s; others are not kept out.": "{seconds} s warten; andere werden nicht ausgesperrt.",
   "Name and password do not belong together.": "Name und Passwort passen nicht zusammen.",
-  "Ask an admin for a new link.": "Eine Verwalterin um einen neuen Link bitten.",
+  "Ask an admin for a new link.": "Einen Verwalter um einen neuen Link bitten.",
   "This link was used already, or has ended.": "Dieser Link wurde schon benutzt oder ist abgelaufen.",
-  "Ask an admin for another one.": "Eine Verwalterin um einen anderen bitten.",
+  "Ask an admin for another one.": "Einen Verwalter um einen anderen bitten.",
   "Choose another one.": "Ein anderes wählen.",
   "There is somebody called {name} already.": "Jemanden mit dem Namen {name} gibt es schon.",
   "Choose another name.": "Einen anderen Namen wählen.",
@@ -98,8 +98,8 @@ export const saidInRefusals: Sentences = {
   "Begin it with a letter or digit.": "Mit einem Buchstaben oder einer Ziffer beginnen.",
   "There is nobody called {name}.": "Niemand heißt {name}.",
   "GET /api/v1/people lists them.": "GET /api/v1/people nennt alle.",
-  "{name} is the only admin.": "Nur {name} darf verwalten.",
-  "Make somebody else an admin first.": "Erst jemand anderem die Verwaltung geben.",
+  "{name} is the only admin.": "{name} ist der einzige Verwalter.",
+  "Make somebody else an admin first.": "Erst jemand anderen zum Verwalter machen.",
   // Programs, cells and simulation
   "{robot} carries at most {limit}; “{part}”{more}{rest}.": "{robot} trägt höchstens {limit}; „{part}“{more}{rest}.",
   "Take a part that is {mass} lighter, or a robot that carries more.":
