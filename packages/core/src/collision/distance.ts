@@ -3,6 +3,14 @@ import { makeRoom, size, type PairScratch } from "./intersect.ts";
 import { movePoints, type Rigid } from "./relative.ts";
 import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
 
+/** Kept between the steps of one search: the least squared distance so far [m²]. */
+const LEAST = new Float64Array(1);
+/** Kept between the steps of one search: the pair of nodes looked at, and how much the stack holds. */
+const PAIR = new Int32Array(3);
+const NODE_A = 0;
+const NODE_B = 1;
+const TOP = 2;
+
 /**
  * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
  *
@@ -52,14 +60,6 @@ export function surfaceDistance(
   }
   return LEAST[0] < cutoff ? Math.sqrt(LEAST[0]) : Infinity;
 }
-
-/** Kept between the steps of one search: the least squared distance so far [m²]. */
-const LEAST = new Float64Array(1);
-/** Kept between the steps of one search: the pair of nodes looked at, and how much the stack holds. */
-const PAIR = new Int32Array(3);
-const NODE_A = 0;
-const NODE_B = 1;
-const TOP = 2;
 
 /** Begins with the pair of triangles that `scratch.witness` names, where it names one. */
 function tryWitness(a: Bvh, b: Bvh, aFromB: Rigid, scratch: PairScratch, out: Float64Array): void {

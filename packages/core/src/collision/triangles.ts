@@ -1,3 +1,18 @@
+/** Where corners, edges and normals of the two triangles begin in `CORNERS`; p0 is the origin. */
+const A = 0; // p1
+const B = 3; // p2
+const C = 6; // p1 to p2
+const D = 9; // q0
+const E = 12; // q1
+const F = 15; // q2
+const G = 18; // q0 to q1
+const H = 21; // q0 to q2
+const K = 24; // q1 to q2
+const N = 27; // normal of p
+const M = 30; // normal of q
+/** Kept between the steps of one call: indices are handed on, since numbers would be allocated. */
+const CORNERS = new Float64Array(33);
+
 /**
  * Whether two triangles, surface and border included, share a point. Separating axes: both normals, the nine products
  * of edges and, for triangles in one plane, the six in-plane normals of edges. Two triangles are apart exactly when
@@ -84,21 +99,6 @@ export function trianglesTouch(p: Float64Array, i: number, q: Float64Array, j: n
   CORNERS[M + 2] = mz;
   return !(edgesApart() || inPlaneApart());
 }
-
-/** Where corners, edges and normals of the two triangles begin in `CORNERS`; p0 is the origin. */
-const A = 0; // p1
-const B = 3; // p2
-const C = 6; // p1 to p2
-const D = 9; // q0
-const E = 12; // q1
-const F = 15; // q2
-const G = 18; // q0 to q1
-const H = 21; // q0 to q2
-const K = 24; // q1 to q2
-const N = 27; // normal of p
-const M = 30; // normal of q
-/** Kept between the steps of one call: indices are handed on, since numbers would be allocated. */
-const CORNERS = new Float64Array(33);
 
 /** Products of edges. An axis across edge e of p and edge f of q sees p as two values and q as two values. */
 const edgesApart = (): boolean =>

@@ -63,7 +63,7 @@ export function readParameters(
   return Object.fromEntries(entries);
 }
 
-/** Why a name cannot be that of a variable: not of the form that every language can say, a word of expressions, taken. */
+/** Why a name cannot be a variable's: not every language can say it, expressions have the word, it is taken. */
 export type VariableNameFault = "form" | "keyword" | "taken";
 
 /**

@@ -8,6 +8,18 @@ export const PHASE_JERK: Readonly<Float64Array> = Float64Array.of(1, 0, -1, 0, -
 /** Accelerations beyond their bounds by this share of the limit are rounding. */
 const ROUNDING = 1e-9;
 
+/** Kept between the steps of one call: what is known of the profile (W, K, c₀, c₂) and what is found (the rest). */
+const PROFILE = new Float64Array(9);
+const WHOLE = 0;
+const RISE = 1;
+const START = 2;
+const END = 3;
+const HIGHEST = 4;
+const LOWEST = 5;
+const HOLD_1 = 6;
+const HOLD_2 = 7;
+const PEAK = 8;
+
 /**
  * The farthest way an axis can come in a given time, all limits kept and the end state met.
  *
@@ -82,18 +94,6 @@ export function farthest(task: AxisTask, sign: 1 | -1, time_s: number, out: Floa
     j
   );
 }
-
-/** Kept between the steps of one call: what is known of the profile (W, K, c₀, c₂) and what is found (the rest). */
-const PROFILE = new Float64Array(9);
-const WHOLE = 0;
-const RISE = 1;
-const START = 2;
-const END = 3;
-const HIGHEST = 4;
-const LOWEST = 5;
-const HOLD_1 = 6;
-const HOLD_2 = 7;
-const PEAK = 8;
 
 /** The cases in which the top speed is not reached: no acceleration held, one or both. */
 function belowTopSpeed({ jerk: j, acceleration: A, a0, a1 }: AxisTask, sign: 1 | -1): void {
