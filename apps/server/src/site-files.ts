@@ -13,7 +13,8 @@ const NOT_BUILT: StaticAnswer = {
 /**
  * The built studio, and under /docs/ the built documentation where there is one.
  *
- * @param studio  folder of the studio. @param docs  folder of the documentation, which may come later; left out: /docs/ has nothing.
+ * @param studio  folder of the studio.
+ * @param docs    folder of the documentation, which may come later; left out: /docs/ has nothing.
  */
 export function siteFiles(studio: string, docs: string | undefined): ReturnType<typeof staticFiles> {
   const ofStudio = staticFiles(studio);
