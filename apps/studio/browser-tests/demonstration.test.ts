@@ -1,3 +1,5 @@
+import { robotById } from "@twincell/core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
@@ -29,7 +31,7 @@ function table(): string {
   return lines.join("\n");
 }
 
-test("M-38 M-39 M-40 M-47 a dropped demonstration is filtered, laid over the hand with its deviation, and becomes steps that the check takes", async () => {
+test("M-38 M-39 M-40 M-45 M-46 M-47 L-34 X-47 a dropped demonstration is filtered, laid over the hand with its deviation, becomes steps, and is replayed at will from any side", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.evaluate(() => window.twincell.stores.viewStore.setState({ coachDone: true }));
@@ -90,8 +92,71 @@ test("M-38 M-39 M-40 M-47 a dropped demonstration is filtered, laid over the han
     { timeout: 60_000, polling: 100 },
   );
   expect(await page.evaluate(() => window.twincell.stores.playStore.getState().verdict!.ok)).toBe(true);
+  await replays(page);
   expect(problems).toEqual([]);
 });
+
+/** Played three times to its end; one animation at a time; the view is turned and zoomed while the robot moves. */
+async function replays(page: Page): Promise<void> {
+  const state = () =>
+    page.evaluate(() => {
+      const { playing, t_s, plan } = window.twincell.stores.playStore.getState();
+      return { playing, t_s, duration_s: plan!.duration_s, q: Array.from(window.twincell.live.now().q_rad) };
+    });
+  const playing = (is: boolean): Promise<unknown> =>
+    page.waitForFunction(wanted => window.twincell.stores.playStore.getState().playing === wanted, is, { polling: 50 });
+  const { duration_s } = await state();
+  const ends: number[][] = [];
+  for (let round = 0; round < 3; round++) {
+    await page.evaluate(to => window.twincell.seek(to), duration_s - 0.6);
+    await page.getByRole("button", { name: "Play", exact: true }).click();
+    await playing(false);
+    const now = await state();
+    expect(now.t_s).toBeCloseTo(duration_s, 9);
+    ends.push(now.q);
+  }
+  expect(ends[1]).toEqual(ends[0]);
+  expect(ends[2]).toEqual(ends[0]);
+
+  // From the start again: the view is turned and zoomed towards the pointer while it plays.
+  await page.getByRole("button", { name: "Play", exact: true }).click();
+  await playing(true);
+  const camera = () =>
+    page.evaluate(() => {
+      const { x, y, z } = window.twincellScene!.camera.position;
+      return [x, y, z];
+    });
+  const before = await camera();
+  const view = (await page.locator(".viewport canvas").boundingBox())!;
+  const at = { x: view.x + 0.12 * view.width, y: view.y + 0.7 * view.height };
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x + 160, at.y - 60, { steps: 4 });
+  await page.mouse.up();
+  const turned = await camera();
+  const apart = (a: readonly number[], b: readonly number[]): number =>
+    Math.hypot(...a.map((value, i) => value - b[i]!));
+  expect(apart(turned, before)).toBeGreaterThan(0.2);
+  await page.mouse.wheel(0, -400);
+  await expect.poll(async () => apart(await camera(), turned)).toBeGreaterThan(0.1);
+  expect((await state()).playing).toBe(true);
+
+  // Paused it stands; resumed it goes on from there; another animation ends this one.
+  await page.getByRole("button", { name: "Pause", exact: true }).click();
+  const held = await state();
+  await page.mouse.move(at.x, at.y);
+  expect((await state()).q).toEqual(held.q);
+  await page.getByRole("button", { name: "Play", exact: true }).click();
+  await page.waitForFunction(from => window.twincell.stores.playStore.getState().t_s > from, held.t_s, { polling: 50 });
+  await page.getByRole("button", { name: "Home", exact: true }).first().click();
+  await playing(false);
+  const home = [...robotById("staubli_rx90l")!.home_rad];
+  await page.waitForFunction(
+    goal => goal.every((angle, j) => Math.abs(angle - window.twincell.live.now().q_rad[j]!) < 1e-9),
+    home,
+    { polling: 100 },
+  );
+}
 
 test("a table that is no demonstration is refused with its line, and nothing changes", async () => {
   const { page, problems } = await studio.open();
