@@ -9,6 +9,7 @@ import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
+import { WholePallet } from "./WholePallet.tsx";
 import "./demonstration.css";
 
 /** A recorded hand: what the filters make of it, how far that is off, and the steps it becomes. */
@@ -38,7 +39,8 @@ export default function DemonstrationDialog() {
   );
 }
 
-function Body({ open: { demonstration, dropped, filtered, options } }: { readonly open: OpenDemonstration }) {
+function Body({ open }: { readonly open: OpenDemonstration }) {
+  const { demonstration, dropped, filtered, options } = open;
   const count = (kind: string): string => String(filtered?.parts.filter(part => part.kind === kind).length ?? 0);
   const mm = (length_m: number): string => `${showNumber(length_m, "length", 2)} mm`;
   const facts = [
@@ -92,6 +94,7 @@ function Body({ open: { demonstration, dropped, filtered, options } }: { readonl
           { value: "averaged", words: words.demonstration.fits.averaged },
         ]}
       />
+      <WholePallet open={open} />
     </div>
   );
 }

@@ -2,6 +2,7 @@ import type { Plan, Tracking } from "@twincell/core";
 import { useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import { useStore } from "zustand";
+import { onFrame } from "../../runtime/jog/jog-frames.ts";
 import { accuracyOverSpeed } from "../../runtime/planning/accuracy.ts";
 import { viewStore } from "../../stores/view.ts";
 import { say, words } from "../../messages/index.ts";
@@ -70,10 +71,16 @@ export function AccuracyPlot({ plan }: { readonly plan: Plan }) {
       element,
     );
     // Without a pointer the numbers are those at full speed.
-    plot.setLegend({ idx: known.rows.length - 1 }, false);
+    let atFull = false;
+    const stop = onFrame(() => {
+      const pointed = (plot.cursor.left ?? -1) >= 0;
+      if (!pointed && !atFull) plot.setLegend({ idx: known.rows.length - 1 }, false);
+      atFull = !pointed;
+    });
     const sizes = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: HEIGHT }));
     sizes.observe(element);
     return () => {
+      stop();
       sizes.disconnect();
       plot.destroy();
     };

@@ -376,6 +376,39 @@ export const teachWords = {
     options: { rest_m: "Ein Halt liegt innerhalb von", straight_m: "Eine Gerade liegt innerhalb von" },
     fit: "Bögen durch",
     fits: { fitted: "Kleinste Quadrate", averaged: "Mittelwerte" },
+    pallet: "Ganze Palette",
+    places: "Plätze",
+    palletTeach: "Palettenprogramm erzeugen",
+    "palletSays(part, surface, columns: number, rows: number)": "„{part}“ auf „{surface}“: {columns} × {rows} Plätze.",
+    "palletRules(x, y)": "Entlang X {x}, entlang Y {y}.",
+    gridRules: {
+      even: "überall dieselbe Lücke",
+      edges: "von Kante zu Kante",
+      middle: "ohne Lücken in der Mitte",
+      low: "ohne Lücken vom unteren Ende an",
+      high: "ohne Lücken vom oberen Ende an",
+      spaced: "mit eigener Lücke um die Mitte",
+    },
+    grasps: { middle: "Gegriffen wird in der Mitte der Oberseite.", shown: "Gegriffen wird, wo es gezeigt wurde." },
+    "palletOff(count: number, mm, approach)":
+      "{count, plural, one {Die gezeigte Ablage liegt} other {Die # gezeigten Ablagen liegen}} höchstens {mm} mm " +
+      "daneben; der Weg hin und zurück ist {approach} mm lang.",
+    "palletMade(places: number, surface)":
+      "{places, plural, one {# Platz ist} other {# Plätze sind}} auf „{surface}“ geteacht. Sie bewegen sich mit.",
+    palletRefused: {
+      noCycle: "Kein Teil wird gegriffen und abgelegt: Der Greifer muss schließen und dann öffnen.",
+      "noPart(place)":
+        "Wo der Greifer schloss ({place} mm), liegt kein Werkstück der Zelle. Dorthin legen, wie es zugeführt wird.",
+      "severalFeeders(mm)": "Die Teile wurden {mm} mm voneinander gegriffen. Beide aus derselben Zuführung zeigen.",
+      "noSurface(place)":
+        "Unter dem Teil, wo der Greifer öffnete ({place} mm), ist nichts. Palette oder Tisch dorthin stellen.",
+      noGrid:
+        "Das Teil ist größer als die Fläche, oder beide Ablagen liegen auf einem Platz. Zwei verschiedene Plätze zeigen.",
+      "noGridOf(places: number)":
+        "{places, plural, one {# Platz passt} other {# Plätze passen}} nicht in Reihen auf die Fläche. Die Zahl ändern.",
+      "irregular(mm)":
+        "Das nächste Raster liegt {mm} mm neben dem Gezeigten. Die Palette stattdessen über drei Ecken teachen.",
+    },
     teach: "Schritte erzeugen",
     "taught(count: number)":
       "{count, plural, one {# Schritt wurde} other {# Schritte wurden}} aus der Demonstration erzeugt.",

@@ -367,6 +367,38 @@ export const teachWords = {
     options: { rest_m: "A stop is within", straight_m: "A straight is within" },
     fit: "Curves by",
     fits: { fitted: "Least squares", averaged: "Averages" },
+    pallet: "Whole pallet",
+    places: "Places",
+    palletTeach: "Make a pallet program",
+    "palletSays(part, surface, columns: number, rows: number)": "“{part}” on “{surface}”: {columns} × {rows} places.",
+    "palletRules(x, y)": "Along X {x}, along Y {y}.",
+    gridRules: {
+      even: "the same gap everywhere",
+      edges: "from edge to edge",
+      middle: "without gaps in the middle",
+      low: "without gaps from the low end",
+      high: "without gaps from the high end",
+      spaced: "with a gap of its own, about the middle",
+    },
+    grasps: { middle: "It is held in the middle of its top.", shown: "It is held where it was shown." },
+    "palletOff(count: number, mm, approach)":
+      "{count, plural, one {The placement shown is} other {The # placements shown are}} at most {mm} mm off; " +
+      "the way in and out is {approach} mm.",
+    "palletMade(places: number, surface)":
+      "{places, plural, one {# place} other {# places}} on “{surface}” are taught. They move with it.",
+    palletRefused: {
+      noCycle: "No part is picked and placed: the gripper has to close and then open.",
+      "noPart(place)":
+        "No work piece of the cell is where the gripper closed ({place} mm). Put it there, as it lies in the feeder.",
+      "severalFeeders(mm)": "The parts were picked {mm} mm apart. Show both from the same feeder.",
+      "noSurface(place)":
+        "Nothing of the cell is under the part where the gripper opened ({place} mm). Put the pallet or table there.",
+      noGrid: "The part is larger than the surface, or both placements are on one place. Show two different places.",
+      "noGridOf(places: number)":
+        "{places, plural, one {# place does} other {# places do}} not fit on the surface in rows. Change the number.",
+      "irregular(mm)":
+        "The nearest grid is {mm} mm from what was shown. Teach the pallet by its three corners instead.",
+    },
     teach: "Make steps",
     "taught(count: number)": "{count} steps were made of the demonstration.",
   },
