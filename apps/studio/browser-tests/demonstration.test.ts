@@ -188,7 +188,7 @@ function twoPlacements(): string {
   return lines.join("\n");
 }
 
-test("M-54 M-02 two of nine placements, each missed by 5 mm, become a program for all nine, right to 2 mm, that moves with the pallet", async () => {
+test("M-54 two of nine placements, each missed by 5 mm, become a program for all nine, right to 2 mm, that moves with the pallet", async () => {
   const { page, problems } = await studio.open({ width: 1440, height: 900 });
   await drawn(page);
   const cell = JSON.parse(

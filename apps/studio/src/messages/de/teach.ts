@@ -26,6 +26,8 @@ export const teachWords = {
     condition: "Bedingung",
     variable: "Variable",
     value: "Wert",
+    "removeUnused(n: number)":
+      "{n, plural, one {# unbenutzte Variable entfernen} other {# unbenutzte Variablen entfernen}}",
     newVariable: "Neue Variable …",
     newVariableName: "Name der neuen Variable",
     kindOfValue: "Art",

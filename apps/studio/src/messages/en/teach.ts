@@ -23,6 +23,7 @@ export const teachWords = {
     condition: "Condition",
     variable: "Variable",
     value: "Value",
+    "removeUnused(n: number)": "{n, plural, one {Remove # unused variable} other {Remove # unused variables}}",
     newVariable: "New variable …",
     newVariableName: "Name of the new variable",
     kindOfValue: "Kind",
