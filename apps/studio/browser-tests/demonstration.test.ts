@@ -32,7 +32,7 @@ function table(): string {
   return lines.join("\n");
 }
 
-test("M-38 M-39 M-40 M-45 M-46 M-47 L-34 X-47 a dropped demonstration is filtered, laid over the hand with its deviation, becomes steps, and is replayed at will from any side", async () => {
+test("M-36 M-38 M-39 M-40 M-45 M-46 M-47 L-34 X-47 a dropped demonstration is filtered, laid over the hand with its deviation, becomes steps, and is replayed at will from any side", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.evaluate(() => window.twincell.stores.viewStore.setState({ coachDone: true }));
@@ -52,6 +52,10 @@ test("M-38 M-39 M-40 M-45 M-46 M-47 L-34 X-47 a dropped demonstration is filtere
   expect(deviation_mm).toBeLessThan(4);
   const rms_mm = parseFloat(await fact("Mean deviation"));
   expect(rms_mm).toBeLessThan(deviation_mm);
+  // Position and orientation to the joints; speeds to their limits; torques where the robot's are published.
+  expect(await fact("Fastest joint")).toMatch(/^J\d, \d{1,2} %$/);
+  expect(await fact("Highest torque")).toBe("–");
+  await dialog.getByText(/The robot can follow the hand as it went\. The torques of .* are unknown/).waitFor();
   const drawnLines = (): Promise<readonly number[]> =>
     page.evaluate(() =>
       ["demonstration-original", "demonstration-filtered"].map(name => {

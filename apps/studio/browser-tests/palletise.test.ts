@@ -170,20 +170,41 @@ test("M-54 T-70 by mouse: the palletising job from an empty program, a mistake f
   expect(problems).toEqual([]);
 });
 
-test("M-54 T-70 by gamepad: the stick moves, its button records, the rest is clicked; a mistake found, repaired, exported", async () => {
+test("M-54 T-70 X-31 X-32 X-33 by gamepad: sticks move robot and view, A grips, a button records, the rest is clicked; repaired and exported", async () => {
   const { page, problems } = await studio.open({ width: 1440, height: 900, script: PAD_SCRIPT });
   await emptyCell(page);
   const pad = new Pad(page);
   await pad.plug();
   const RECORD = 5;
+  await page.evaluate(() => {
+    window.twincell.run("help.controls");
+  });
+  await page.getByRole("button", { name: "Table: target and gripper" }).click();
+  await page.keyboard.press("Escape");
+  const view = (): Promise<number[]> =>
+    page.evaluate(() => {
+      const { x, y, z } = window.twincellScene!.camera.position;
+      return [x, y, z];
+    });
+  const [before, stood] = [await view(), await page.evaluate(() => Array.from(window.twincell.live.now().q_rad))];
+  await pad.stick(2, 1);
+  await expect
+    .poll(async () => Math.hypot(...(await view()).map((value, i) => value - before[i]!)))
+    .toBeGreaterThan(0.2);
+  await pad.stick(2, 0);
+  expect(await page.evaluate(() => Array.from(window.twincell.live.now().q_rad))).toEqual(stood);
   await palletise(
     page,
     {
       ...byMouse(page),
+      // A closes the gripper while it is held, and letting go opens it.
+      grip: closed => pad.button(0, closed ? 1 : 0),
       jog: (axis, to_m) => pad.steerTip({ [axis]: to_m }, 0.002),
       async record(path) {
         await pad.press(RECORD);
-        if (path === "LIN") await page.getByRole("radio", { name: "LIN", exact: true }).first().click();
+        if (path === "PTP") return;
+        await page.getByRole("radio", { name: "LIN", exact: true }).first().click();
+        await page.getByRole("radio", { name: "mm/s", exact: true }).first().click();
       },
     },
     "gamepad",

@@ -71,11 +71,9 @@ export function AccuracyPlot({ plan }: { readonly plan: Plan }) {
       element,
     );
     // Without a pointer the numbers are those at full speed.
-    let atFull = false;
+    const full = known.rows.length - 1;
     const stop = onFrame(() => {
-      const pointed = (plot.cursor.left ?? -1) >= 0;
-      if (!pointed && !atFull) plot.setLegend({ idx: known.rows.length - 1 }, false);
-      atFull = !pointed;
+      if ((plot.cursor.left ?? -1) < 0 && plot.legend.idx !== full) plot.setLegend({ idx: full }, false);
     });
     const sizes = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: HEIGHT }));
     sizes.observe(element);

@@ -176,6 +176,7 @@ export const checkWords = {
     speeds: "Achsgeschwindigkeiten",
     torques: "Drehmomente",
     tcpSpeed: "TCP-Tempo",
+    "passes(name, n: number)": "{name} · {n} Durchgänge",
     accuracy: "Genauigkeit",
     worstError: "Größter Fehler",
     rmsError: "Mittlerer Fehler (RMS)",

@@ -167,6 +167,7 @@ export const checkWords = {
     speeds: "Joint speeds",
     torques: "Torques",
     tcpSpeed: "TCP speed",
+    "passes(name, n: number)": "{name} · {n} passes",
     accuracy: "Accuracy",
     worstError: "Largest error",
     rmsError: "Mean error (RMS)",

@@ -1,4 +1,5 @@
 import {
+  checkHand,
   compose,
   freshStepIds,
   inferPallet,
@@ -6,6 +7,7 @@ import {
   palletSlots,
   rotate,
   type Demonstration,
+  type HandCheck,
   type InferredPallet,
   type InferRefusal,
   type Pose,
@@ -15,10 +17,11 @@ import {
 } from "@twincell/core";
 import { isTextProgram, shapeBounds, type CellDocument, type ObjectRecord } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
-import { flangeFromTcpOf } from "../../stores/document.ts";
+import { flangeFromTcpOf, robotOf } from "../../stores/document.ts";
 import { demonstrationStore, type OpenDemonstration } from "../../stores/demonstration.ts";
 import { notify } from "../../stores/notices.ts";
 import { addSteps } from "../../stores/program.ts";
+import { theLive } from "../live.ts";
 import { words } from "../../messages/index.ts";
 import { closeDemonstration } from "./demonstrating.ts";
 
@@ -90,6 +93,15 @@ function inferred(document: CellDocument, demonstration: Demonstration, places: 
     name: words.demonstration.title,
   });
   return { answer, surfaces };
+}
+
+/** Whether the robot of the cell could follow a recorded hand with its tool; null without a robot. */
+export function checkOpenHand(demonstration: Demonstration): HandCheck | null {
+  const { document } = cellStore.getState();
+  const robot = robotOf(document);
+  return document && robot
+    ? checkHand(demonstration, robot, document.robot.worldFromBase, flangeFromTcpOf(document), theLive().q_rad)
+    : null;
 }
 
 /** Whether the hand closed and opened the gripper at all: only then a whole pallet can be made of it. */
