@@ -43,7 +43,7 @@ const ENGAGES = 100_000;
 const FIELDS = 20;
 const JOGS = 1000;
 
-/** Explaining and repairing poses against brute force, teaching once, the clutch, the reach field, and singular jogs. */
+/** Explaining and repairing poses against brute force, teaching once, the clutch, the reach field, singular jogs. */
 export const run: Bench = () =>
   Promise.resolve([...explained(), ...repaired(), ...taughtOnce(), clutch(), ...field(), ...jogs()]);
 

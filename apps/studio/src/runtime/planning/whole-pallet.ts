@@ -125,8 +125,8 @@ export function inferWholePallet(places: number | undefined): void {
 }
 
 /**
- * Puts the inferred program into the one being taught, as one undo step: a frame on the surface, that moves with it, the
- * pallet in that frame, and the cycle done at each of its places.
+ * Puts the inferred program into the one being taught, as one undo step: a frame on the surface, that moves with it,
+ * the pallet in that frame, and the cycle done at each of its places.
  */
 export function teachWholePallet(): void {
   const { open } = demonstrationStore.getState();

@@ -11,7 +11,7 @@ const GUIDE = "#ff6fb5";
 const PLACE_M = 0.012;
 const NO_PLACES: readonly Vector3[] = [];
 
-/** A recorded hand as it was and as it is filtered, one over the other (row M-47), and the places that it stands for. */
+/** A recorded hand as it was and as it is filtered (row M-47), and the places that it stands for. */
 export function DemonstrationView({ theme }: { readonly theme: SceneTheme }) {
   const demonstration = useStore(demonstrationStore, state => state.open?.demonstration);
   const filtered = useStore(demonstrationStore, state => state.open?.filtered);

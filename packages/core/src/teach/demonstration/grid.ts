@@ -12,7 +12,7 @@ export interface GridLine {
   readonly first_m: number;
   readonly pitch_m: number;
 }
-/** A line of places with the place that each observation belongs to, and what is left, in standard deviations squared. */
+/** A line of places with the place of each observation, and what is left, in standard deviations squared. */
 export interface FittedLine extends GridLine {
   readonly slots: readonly number[];
   readonly misfit: number;

@@ -70,8 +70,8 @@ const NEAR: Speed = { mps: 0.1 };
 
 /**
  * A whole palletising program from one or two shown pick-and-places (rows M-54, L-32): what the part is held by, which
- * surface it goes to, the grid that explains the placements best, the way in and out. The cell says what the hand cannot
- * show precisely: how large the part and the surface are and where they stand. Steps of the program, one pallet among
+ * surface it goes to, the grid that explains the placements best, the way in and out. The cell says what the hand
+ * cannot show precisely: how large the part and the surface are and where they stand. Steps of the program, one pallet among
  * them with eight inside:
  *
  *   above the part, down, close, up | above the place, down, open, up
@@ -175,7 +175,7 @@ function cyclesOf(grips: readonly Grip[]): Cycle[] {
 const topOf = ({ worldFromBox, size_m }: SceneBox): Pose<"world", "surface"> =>
   compose(worldFromBox, { position: [0, 0, size_m[2] / 2], quaternion: [0, 0, 0, 1] } as Pose<"box", "surface">);
 
-/** The part that the tool is at: of those that it is in, or at most a hand's reach from, the one with the nearest top. */
+/** The part that the tool is at: of those at most a hand's reach away, the one with the nearest top. */
 function partAt(parts: readonly SceneBox[], tool: Vector3): SceneBox | undefined {
   let best: SceneBox | undefined;
   let nearest = Infinity;

@@ -40,8 +40,8 @@ const PATTERNS = ["even", "edges", "middle", "end"] as const;
 
 /**
  * Nine places, three by three, on a surface that stands anywhere and is turned anyhow; a part of random size in a
- * feeder; the hand shows two different places of the nine, drawn at random. One rule for both sides of the surface, from
- * a random corner where it is packed from an end; 20 to 160 mm of room beside the parts along each side.
+ * feeder; the hand shows two different places of the nine, drawn at random. One rule for both sides of the surface,
+ * from a random corner where it is packed from an end; 20 to 160 mm of room beside the parts along each side.
  */
 export function randomPallet(random: Random, noise: HandNoise, places: number | undefined): RandomPallet {
   const between = (low: number, high: number): number => low + (high - low) * random();
