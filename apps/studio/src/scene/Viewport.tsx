@@ -18,6 +18,7 @@ import { viewStore } from "../stores/view.ts";
 import { type CameraWishes, Controls } from "./camera/controls.tsx";
 import { ViewCube } from "./camera/view-cube.tsx";
 import { FrameMeter } from "./frame-meter.ts";
+import { TargetSphere } from "./handle/target-sphere.tsx";
 import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
 import { PartDrop } from "./objects/part-drop.tsx";
@@ -154,6 +155,7 @@ export function Viewport() {
               theme={colours}
               targets={targets}
             />
+            <TargetSphere theme={colours} />
             <Ghost interaction={interaction} tool={tool} theme={colours} />
             {document && mode === "cell" && anything && !inHeadset && (
               <Suspense fallback={null}>
