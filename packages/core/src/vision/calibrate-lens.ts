@@ -1,5 +1,8 @@
+import type { TagDetector } from "./detector.ts";
+import type { MarkerSheet } from "./sheet.ts";
 import { assumedLens, distort, type Lens } from "./lens.ts";
-import { type PlanarPose, PlanarPoseSolver, solveSymmetric } from "./planar-pose.ts";
+import { solveSymmetric } from "../spatial/symmetric.ts";
+import { type PlanarPose, PlanarPoseSolver } from "./planar-pose.ts";
 
 /** What one picture shows of a flat board: the same number of pairs in both. */
 export interface BoardView {
@@ -36,8 +39,8 @@ const MAX_RMS_PX = 1;
 const FIRST_ANGLES_RAD = [0.85, 1.15, 1.5] as const;
 
 /**
- * The lens of a camera from views of a flat board: fx, fy, cx, cy, k1, k2 and a pose for each view with the least sum of
- * squared pixel errors (Levenberg–Marquardt, from three angles of view).
+ * The lens of a camera from views of a flat board: fx, fy, cx, cy, k1, k2 and a pose for each view with the least sum
+ * of squared pixel errors (Levenberg–Marquardt, from three angles of view).
  *
  * @param width of the pictures [px] @param height of the pictures [px]
  * @see Zhang, A flexible new technique for camera calibration, IEEE PAMI 22(11) 2000.
@@ -266,4 +269,31 @@ function movedPose({ rotation: R, position }: PlanarPose, by: Float64Array, at: 
     rotation[6 + column] = d + s * wz + c * (x * wy - y * wx);
   }
   return { rotation, position: position.map((value, i) => value + by[at + 3 + i]!), error: 0 };
+}
+
+/**
+ * The tags of a board that a detector sees now, as a view to calibrate with.
+ *
+ * @param lens that the detector uses: its distortion is put back
+ * @returns null when none of the board's tags is seen
+ */
+export function boardView(detector: TagDetector, lens: Lens, board: MarkerSheet): BoardView | null {
+  const pixels: number[] = [];
+  const points: number[] = [];
+  const at = new Float64Array(2);
+  for (let i = 0; i < detector.count; i++) {
+    const { id, corners } = detector.sightings[i]!;
+    const tag = board.tags.find(each => each.id === id);
+    if (!tag) continue;
+    const half = tag.side_m / 2;
+    for (let k = 0; k < 4; k++) {
+      distort(lens, corners[2 * k]!, corners[2 * k + 1]!, at);
+      pixels.push(at[0]!, at[1]!);
+      points.push(tag.x_m + (k === 1 || k === 2 ? half : -half), tag.y_m + (k < 2 ? half : -half));
+    }
+  }
+  const side_m = board.tags[0]?.side_m;
+  return pixels.length > 0 && side_m !== undefined
+    ? { pixels: Float64Array.from(pixels), board: Float64Array.from(points), side_m }
+    : null;
 }

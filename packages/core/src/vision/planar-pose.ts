@@ -1,3 +1,5 @@
+import { solveSymmetric } from "../spatial/symmetric.ts";
+
 /**
  * Pose of a plane from points on it. Two poses can explain one picture of a plane; both are found, refined and judged.
  * Nothing is allocated once a solver is made.
@@ -318,35 +320,6 @@ function accumulate(
     b[i]! += row[i]! * residual;
     for (let j = 0; j <= i; j++) A[6 * i + j]! += row[i]! * row[j]!;
   }
-}
-
-/**
- * Solves A x = b by Cholesky in place (lower half of A is read, b becomes x).
- *
- * @returns false when A is not positive definite
- */
-export function solveSymmetric(A: Float64Array, b: Float64Array, n: number): boolean {
-  for (let i = 0; i < n; i++) {
-    for (let j = 0; j <= i; j++) {
-      let sum = A[n * i + j]!;
-      for (let k = 0; k < j; k++) sum -= A[n * i + k]! * A[n * j + k]!;
-      if (i === j) {
-        if (!(sum > 0)) return false;
-        A[n * i + i] = Math.sqrt(sum);
-      } else A[n * i + j] = sum / A[n * j + j]!;
-    }
-  }
-  for (let i = 0; i < n; i++) {
-    let sum = b[i]!;
-    for (let k = 0; k < i; k++) sum -= A[n * i + k]! * b[k]!;
-    b[i] = sum / A[n * i + i]!;
-  }
-  for (let i = n - 1; i >= 0; i--) {
-    let sum = b[i]!;
-    for (let k = i + 1; k < n; k++) sum -= A[n * k + i]! * b[k]!;
-    b[i] = sum / A[n * i + i]!;
-  }
-  return true;
 }
 
 /** into = exp(turn) · rotation, position + shift. */

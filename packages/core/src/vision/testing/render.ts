@@ -40,7 +40,7 @@ export function renderTags(
   const image = new Float64Array(width * height).fill(how.behind);
   const R = Array.from(rotation);
   const t = Array.from(position);
-  // Plane point p = (x, y): camera point = R (x, y, 0) + t. Ray d meets it where (x, y) solves [r1 r2 −d] (x, y, s) = −t.
+  // Plane point (x, y): camera point = R (x, y, 0) + t. Ray d meets it where (x, y) solves [r1 r2 −d] (x, y, s) = −t.
   const n = [R[2]!, R[5]!, R[8]!];
   const nt = n[0]! * t[0]! + n[1]! * t[1]! + n[2]! * t[2]!;
   const box = bounds(lens, tags, R, t);
@@ -61,7 +61,7 @@ export function renderTags(
         }
       image[width * v + u] = sum / (SUPER * SUPER);
     }
-  return quantised(blurred(image, width, height, how.blur_px), how.noise, random);
+  return quantised(blurred(image, width, height, how.blur_px, box), how.noise, random);
 }
 
 function valueAt(tags: readonly PlacedTag[], x: number, y: number, how: Rendering): number {
@@ -93,7 +93,13 @@ function ray(lens: Lens, u: number, v: number, out: number[]): void {
   out[1] = yd * share;
 }
 
-function bounds(lens: Lens, tags: readonly PlacedTag[], R: number[], t: number[]) {
+interface Box {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+function bounds(lens: Lens, tags: readonly PlacedTag[], R: number[], t: number[]): Box {
   const at = new Float64Array(2);
   let [left, right, top, bottom] = [Infinity, -Infinity, Infinity, -Infinity];
   for (const { side_m, x_m, y_m } of tags)
@@ -120,38 +126,50 @@ function bounds(lens: Lens, tags: readonly PlacedTag[], R: number[], t: number[]
   };
 }
 
-function blurred(image: Float64Array, width: number, height: number, sigma: number): Float64Array {
+/** Blurs what was drawn; about it everything is alike and stays so. */
+function blurred(image: Float64Array, width: number, height: number, sigma: number, box: Box): Float64Array {
   if (sigma <= 0) return image;
   const reach = Math.ceil(3 * sigma);
   const kernel = Array.from({ length: 2 * reach + 1 }, (_, i) => Math.exp(-0.5 * ((i - reach) / sigma) ** 2));
   const total = kernel.reduce((sum, value) => sum + value, 0);
-  const pass = (from: Float64Array, step: number, length: number, along: (i: number) => number): Float64Array => {
-    const into = new Float64Array(from.length);
-    for (let i = 0; i < from.length; i++) {
-      const place = along(i);
-      let sum = 0;
-      for (let k = -reach; k <= reach; k++) {
-        const shift = Math.min(length - 1, Math.max(0, place + k)) - place;
-        sum += kernel[k + reach]! * from[i + shift * step]!;
+  const pass = (from: Float64Array, along: "x" | "y"): Float64Array => {
+    const into = from.slice();
+    for (let y = Math.max(0, box.top - reach); y <= Math.min(height - 1, box.bottom + reach); y++)
+      for (let x = Math.max(0, box.left - reach); x <= Math.min(width - 1, box.right + reach); x++) {
+        let sum = 0;
+        for (let k = -reach; k <= reach; k++) {
+          const u = along === "x" ? Math.min(width - 1, Math.max(0, x + k)) : x;
+          const v = along === "y" ? Math.min(height - 1, Math.max(0, y + k)) : y;
+          sum += kernel[k + reach]! * from[width * v + u]!;
+        }
+        into[width * y + x] = sum / total;
       }
-      into[i] = sum / total;
-    }
     return into;
   };
-  const across = pass(image, 1, width, i => i % width);
-  return pass(across, width, height, i => Math.floor(i / width));
+  return pass(pass(image, "x"), "y");
 }
+
+const TABLE = 65_536;
+/** Normally distributed numbers, made once: a picture has a million. */
+const GAUSS = ((): Float64Array => {
+  const random = seededRandom(77);
+  return Float64Array.from(
+    { length: TABLE },
+    () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random()),
+  );
+})();
 
 function quantised(image: Float64Array, noise: number, random: Random): Uint8Array {
   const out = new Uint8Array(image.length);
+  let at = Math.floor(TABLE * random());
   for (let i = 0; i < image.length; i++) {
-    const gauss = Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
-    out[i] = Math.min(255, Math.max(0, Math.round(image[i]! + noise * gauss)));
+    at = (at + 1) & (TABLE - 1);
+    out[i] = Math.min(255, Math.max(0, Math.round(image[i]! + noise * GAUSS[at]!)));
   }
   return out;
 }
 
-/** cameraFromTag rotation (row by row) of a tag that faces the camera, then turned by `roll` and tilted about an axis. */
+/** cameraFromTag rotation (row by row) of a tag that faces the camera, turned by `roll` and tilted about an axis. */
 export function facing(tilt_rad: number, axis_rad: number, roll_rad: number): number[] {
   const [cr, sr] = [Math.cos(roll_rad), Math.sin(roll_rad)];
   // Tag x right, y up, z towards the camera: in the camera's axes (x right, y down, z forward) diag(1, −1, −1).
