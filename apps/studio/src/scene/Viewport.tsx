@@ -125,6 +125,10 @@ export function Viewport() {
           shadows={{ type: PCFShadowMap }}
           gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
           camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}
+          onCreated={({ gl }) => {
+            // Asking for a shader's errors waits until it is compiled: a pause at the first sight of each material.
+            gl.debug.checkShaderErrors = import.meta.env.DEV;
+          }}
         >
           <RenderLoop meter={meter} picture={picture} cube={cube} close={close} />
           <Probe meter={meter} close={close} />
