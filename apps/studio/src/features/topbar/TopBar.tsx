@@ -21,7 +21,18 @@ const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"
 const MENU: readonly (readonly string[])[] = [
   ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],
-  ["view.cameras", "view.people", "view.fleet", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
+  [
+    "view.cameras",
+    "view.marker",
+    "view.people",
+    "view.fleet",
+    "view.collision",
+    "view.registration",
+    "help.device",
+    "help.controls",
+    "help.shortcuts",
+    "help.coach",
+  ],
 ];
 
 /** A phone has no room for these beside the menu. */

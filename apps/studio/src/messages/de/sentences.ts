@@ -4,6 +4,7 @@ import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidByRobots } from "./said/robots.ts";
 import { saidByTexts } from "./said/texts.ts";
+import { saidByVision } from "./said/vision.ts";
 
 /** German: what packages say. */
 export const sentences: Sentences = {
@@ -12,4 +13,5 @@ export const sentences: Sentences = {
   ...saidByReaders,
   ...saidByTexts,
   ...saidByExport,
+  ...saidByVision,
 };
