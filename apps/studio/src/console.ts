@@ -33,6 +33,7 @@ import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { textStore } from "./stores/text.ts";
+import { togetherStore } from "./stores/together.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -66,6 +67,7 @@ const twincell = {
     soundStore,
     stationStore,
     textStore,
+    togetherStore,
     traceStore,
     videoStore,
     viewStore,

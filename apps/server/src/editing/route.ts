@@ -95,8 +95,8 @@ function inRoom(shared: SharedCells, socket: WebSocket, { cell, who, right }: En
     else socket.close(1008, read.sentence.slice(0, 120));
   }
   shared
-    .open(cell, why => {
-      socket.close(1001, why);
+    .open(cell, (why, code) => {
+      socket.close(code, why);
     })
     .then(
       found => {

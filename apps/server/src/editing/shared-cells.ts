@@ -13,6 +13,9 @@ const KEPT_EACH_S = 0.5;
 const HEAD = /^twincell\.shared-cell 1 ([0-9a-f]{32})\n/;
 const FOLDER = "editing";
 const MOST_ROOMS = 100;
+/** How a connection ends: the server goes away and may come back; or there is nothing to come back to, as 410 says. */
+const GOES_AWAY = 1001;
+const REMOVED = 4410;
 
 /** One cell that people edit together, for one who comes in. */
 export interface OpenRoom {
@@ -23,7 +26,7 @@ export interface OpenRoom {
 /** The cells of the data folder as people edit them together. */
 export interface SharedCells {
   /** @param ended  told when the cell is taken away under its editors. */
-  open(name: string, ended: (why: string) => void): Promise<OpenRoom | CommandOutcome>;
+  open(name: string, ended: (why: string, code: number) => void): Promise<OpenRoom | CommandOutcome>;
   /** Somebody wrote the cell by the API: whoever edits it gets that as a change. */
   written(name: string, document: unknown): void;
   removed(name: string): Promise<void>;
@@ -39,7 +42,7 @@ export interface SharedCellsOptions {
 
 interface Kept {
   readonly room: EditingRoom;
-  readonly editors: Set<(why: string) => void>;
+  readonly editors: Set<(why: string, code: number) => void>;
   changed: boolean;
   busy: boolean;
   /** Writing, one after the other. */
@@ -148,10 +151,10 @@ export function createSharedCells({ folder, cells, scheduler, say }: SharedCells
     }
   });
 
-  function end(name: string, kept: Kept, why: string): void {
+  function end(name: string, kept: Kept, why: string, code: number): void {
     ready.delete(name);
     open.delete(name);
-    for (const ended of kept.editors) ended(why);
+    for (const ended of kept.editors) ended(why, code);
     kept.room.close();
   }
   return {
@@ -189,7 +192,7 @@ export function createSharedCells({ folder, cells, scheduler, say }: SharedCells
       const kept = ready.get(name);
       if (kept) {
         await kept.writing;
-        end(name, kept, "This cell was removed from the server.");
+        end(name, kept, "This cell was removed from the server.", REMOVED);
       }
       if (folder !== undefined) await rm(pathOf(name), { force: true });
       // A write that was under way may have put it back.
@@ -200,7 +203,7 @@ export function createSharedCells({ folder, cells, scheduler, say }: SharedCells
       for (const [name, kept] of ready) {
         if (kept.changed) await keep(name, kept);
         await kept.writing;
-        end(name, kept, "The server closes.");
+        end(name, kept, "The server closes.", GOES_AWAY);
       }
     },
   };

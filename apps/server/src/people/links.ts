@@ -39,7 +39,7 @@ export function cellLinks(tokens: (token: string) => TokenAnswer): CellLinks {
   };
 }
 
-/** Whether a request asks for nothing but to look at that cell: the cell itself, or its editing as somebody who looks. */
+/** Whether a request asks only to look at that cell: for the cell itself, or for its editing as somebody who looks. */
 export function isLookAt(request: IncomingMessage, cell: string): boolean {
   const { pathname, searchParams } = new URL(request.url ?? "/", "http://here");
   return pathname === SOCKETS.editing

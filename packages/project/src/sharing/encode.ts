@@ -9,8 +9,8 @@ export const ORDER = "#order";
 const LIST = "#list";
 type Node = Y.Map<unknown>;
 /**
- * Lists and tables that a cell may leave out. In a shared document they are there from the beginning, so that two people
- * who each add the first thing of one put it into the same.
+ * Lists and tables that a cell may leave out. In a shared document they are there from the beginning: two people who
+ * each add the first thing of one put it into the same.
  */
 const MAY_BE_LEFT_OUT: ReadonlySet<string> = new Set([
   "sensors",

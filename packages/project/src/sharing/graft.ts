@@ -28,28 +28,28 @@ function graft(layout: Layout, before: unknown, after: unknown, onto: unknown): 
 }
 
 function records(layout: Extract<Layout, { readonly kind: "record" }>, before: Json, after: Json, onto: Json): Json {
-  const made: Record<string, unknown> = { ...onto };
+  const made = new Map(Object.entries(onto));
   for (const { fields, layout: inside } of unitsOf(layout, [...Object.keys(before), ...Object.keys(after)])) {
     const was = partOf(before, fields);
     const is = partOf(after, fields);
     if (same(was, is)) continue;
     const part = graft(inside, was, is, partOf(onto, fields));
-    for (const field of fields) delete made[field];
-    if (fields.length > 1) Object.assign(made, part);
-    else if (part !== undefined) made[fields[0]!] = part;
+    for (const field of fields) made.delete(field);
+    if (fields.length > 1) for (const [field, value] of Object.entries(part ?? {})) made.set(field, value);
+    else if (part !== undefined) made.set(fields[0]!, part);
   }
-  return made;
+  return Object.fromEntries(made);
 }
 
 function tables(entry: Layout, before: Json, after: Json, onto: Json): Json {
-  const made: Record<string, unknown> = { ...onto };
+  const made = new Map(Object.entries(onto));
   for (const name of new Set([...Object.keys(before), ...Object.keys(after)])) {
     if (same(before[name], after[name])) continue;
     const part = graft(entry, before[name], after[name], onto[name]);
-    if (part === undefined) delete made[name];
-    else made[name] = part;
+    if (part === undefined) made.delete(name);
+    else made.set(name, part);
   }
-  return made;
+  return Object.fromEntries(made);
 }
 
 const listOf = (value: unknown): readonly unknown[] => (Array.isArray(value) ? value : []);

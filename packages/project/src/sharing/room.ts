@@ -19,7 +19,7 @@ export interface RoomOptions {
 
 /**
  * The one place where the editors of a cell meet. Every update is looked at before anybody else has it: whether its
- * sender may do that, now, and whether the cell is still one that can be opened. What is refused never reaches the cell.
+ * sender may do that, now, and whether the cell is still one that can be opened. What is refused changes nothing.
  */
 export interface EditingRoom {
   readonly epoch: string;

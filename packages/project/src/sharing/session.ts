@@ -33,7 +33,7 @@ export interface EditingSessionOptions {
   readonly onEvent: (event: EditingEvent) => void;
   /** What is made of every merged state before it is shown. */
   readonly normalise?: (document: CellDocument) => CellDocument;
-  readonly kept?: KeptSession;
+  readonly kept?: KeptSession | null;
   /** The number of an editor of shared documents, for tests that have to come out the same. */
   readonly newEditor?: () => number;
 }

@@ -19,6 +19,7 @@ export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { togetherWords } from "./together.ts";
 import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
@@ -42,6 +43,7 @@ export const catalogue: Translation<typeof en> = {
   phone,
   scene,
   text: textWords,
+  together: togetherWords,
   tools,
   video: videoWords,
 };
