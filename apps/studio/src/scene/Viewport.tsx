@@ -12,6 +12,7 @@ import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
+import { togetherStore } from "../stores/together.ts";
 import { traceStore } from "../stores/trace.ts";
 import { baseMapStore } from "../stores/base-map.ts";
 import { repairStore } from "../stores/repairs.ts";
@@ -50,6 +51,9 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const EditorPointers = lazy(() =>
+  import("./objects/editor-pointers.tsx").then(part => ({ default: part.EditorPointers })),
+);
 const BaseMapView = lazy(() => import("./base-map-view.tsx").then(part => ({ default: part.BaseMapView })));
 const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
@@ -66,6 +70,7 @@ export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode);
   const baseMap = useStore(baseMapStore, state => state.on && state.field !== null);
+  const together = useStore(togetherStore, state => state.editors.some(({ presence }) => presence?.pointer_m));
   const repairShown = useStore(repairStore, state => state.shown !== null);
   const inHeadset = useStore(viewStore, state => state.inHeadset);
   const onMarker = useStore(markerViewStore, state => state.on);
@@ -152,6 +157,11 @@ export function Viewport() {
             {document && robot && repairShown && (
               <Suspense fallback={null}>
                 <RepairGhost document={document} robot={robot} tool={tool} />
+              </Suspense>
+            )}
+            {together && (
+              <Suspense fallback={null}>
+                <EditorPointers />
               </Suspense>
             )}
             {baseMap && (
