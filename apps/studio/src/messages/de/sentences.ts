@@ -5,7 +5,9 @@ import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidInRefusals } from "./said/refusals.ts";
 import { saidByRobots } from "./said/robots.ts";
+import { saidTogether } from "./said/together.ts";
 import { saidByTexts } from "./said/texts.ts";
+import { saidByVision } from "./said/vision.ts";
 
 /** German: what packages say. */
 export const sentences: Sentences = {
@@ -16,4 +18,6 @@ export const sentences: Sentences = {
   ...saidByExport,
   ...saidInRefusals,
   ...saidByDrivers,
+  ...saidByVision,
+  ...saidTogether,
 };

@@ -100,6 +100,15 @@ export const saidInRefusals: Sentences = {
   "GET /api/v1/people lists them.": "GET /api/v1/people nennt alle.",
   "{name} is the only admin.": "{name} ist der einzige Verwalter.",
   "Make somebody else an admin first.": "Erst jemand anderen zum Verwalter machen.",
+  // Cells edited by several people
+  "Your changes are put on the present state of the cell.":
+    "Ihre Änderungen werden auf den jetzigen Stand der Zelle angewandt.",
+  "This change is left out; your cell as it was is kept.":
+    "Diese Änderung bleibt weg; Ihre Zelle, wie sie war, ist aufbewahrt.",
+  "Open the cell again.": "Die Zelle noch einmal öffnen.",
+  "It needs the role programmer or admin; your cell as it was is kept.":
+    "Dafür braucht es die Rolle Programmierer oder Verwalter; Ihre Zelle, wie sie war, ist aufbewahrt.",
+  "Your cell as it was is kept.": "Ihre Zelle, wie sie war, ist aufbewahrt.",
   // Programs, cells and simulation
   "{robot} carries at most {limit}; “{part}”{more}{rest}.": "{robot} trägt höchstens {limit}; „{part}“{more}{rest}.",
   "Take a part that is {mass} lighter, or a robot that carries more.":
