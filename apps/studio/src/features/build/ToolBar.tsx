@@ -1,4 +1,4 @@
-import { Axis3d, Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
+import { Axis3d, Combine, Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d, Workflow } from "lucide-react";
 import type { ReactNode } from "react";
 import { useStore } from "zustand";
 import { buildStore, chooseTool, type BuildState, type BuildTool } from "../../stores/build.ts";
@@ -15,6 +15,8 @@ const TOOLS: readonly { readonly tool: BuildTool; readonly glyph: ReactNode; rea
   { tool: "turn", glyph: <Rotate3d />, keys: "E" },
   { tool: "scale", glyph: <Scale3d />, keys: "R" },
   { tool: "measure", glyph: <Ruler />, keys: "M" },
+  { tool: "mate", glyph: <Combine />, keys: "J" },
+  { tool: "rig", glyph: <Workflow /> },
 ];
 const GRIDS_M = [0, 0.001, 0.005, 0.01, 0.05, 0.1] as const;
 const DISPLAYS: readonly BuildState["display"][] = ["smooth", "flat", "wire", "points"];

@@ -14,6 +14,8 @@ import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { process } from "./process.ts";
+import { mate, rig } from "./rig.ts";
 import { scene } from "./scene.ts";
 export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
@@ -40,6 +42,9 @@ export const catalogue: Translation<typeof en> = {
   offline,
   own,
   phone,
+  mate,
+  process,
+  rig,
   scene,
   text: textWords,
   tools,

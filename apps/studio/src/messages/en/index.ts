@@ -12,6 +12,8 @@ import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { process } from "./process.ts";
+import { mate, rig } from "./rig.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
@@ -37,6 +39,9 @@ export const en = {
   offline,
   own,
   phone,
+  mate,
+  process,
+  rig,
   scene,
   text: textWords,
   tools,
