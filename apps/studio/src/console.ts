@@ -20,6 +20,7 @@ import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { lessonStore } from "./stores/lesson.ts";
 import { mateStore } from "./stores/mate.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { offlineStore } from "./stores/offline.ts";
@@ -37,6 +38,7 @@ import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { surfaceStore } from "./stores/surface.ts";
 import { textStore } from "./stores/text.ts";
+import { togetherStore } from "./stores/together.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -61,6 +63,7 @@ const twincell = {
     languageStore,
     lessonStore,
     mateStore,
+    markerViewStore,
     noticeStore,
     offlineStore,
     physicsStore,
@@ -74,6 +77,7 @@ const twincell = {
     stationStore,
     surfaceStore,
     textStore,
+    togetherStore,
     traceStore,
     videoStore,
     viewStore,

@@ -14,6 +14,7 @@ import { pickForRig } from "../../stores/rig.ts";
 import { hoverSurface, picksSurfaces, surfaceStore } from "../../stores/surface.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { playStore } from "../../stores/play.ts";
+import { pointAt } from "../../stores/together.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -160,6 +161,7 @@ export function Pointer({
       if (event.pointerType === "touch") leave();
     });
     const leave = (): void => {
+      pointAt(null);
       interaction.inside = false;
       interaction.hoveredPart = null;
       if (selectionStore.getState().hovered) hover(null);
@@ -222,6 +224,7 @@ export function Pointer({
     }
     const found = part !== null ? null : nearestThing(work.caster, root);
     const thing: Thing | null = found?.holder.userData.thing ?? null;
+    pointAt(found ? toWorld(found.hit.point, [0, 0, 0]) : null);
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
     if (picksSurfaces()) hoverSurface(found ? surfaceUnder(document, found, found.hit.distance * MEASURE_SHARE) : null);
     const { hovered } = selectionStore.getState();
