@@ -33,8 +33,8 @@ const INNER: Vector3 = [0.0127, 0, 0.06142];
 const LIMITS = { lower: 0, upper: FULLY_CLOSED_RAD, speed: 0.5, effort: 50 };
 
 /**
- * The two fingers of a 2F-85 as links and joints: the left knuckle is driven, five joints mimic it, so that the tips keep
- * upright. All turn about −y of the flange; at 0 the gripper is open by 85 mm, and `tcp` is midway between the tips' ends.
+ * The two fingers of a 2F-85 as links and joints: the left knuckle is driven, five joints mimic it, so that the tips
+ * keep upright. All turn about −y of the flange; at 0 the gripper is open by 85 mm.
  *
  *   right = −left;   inner knuckles as their outer ones;   tips against their knuckles
  */
