@@ -400,7 +400,7 @@ test("N-01, M-56, M-66 the six steps of a cell are told with what is done; a car
   );
   await page.getByRole("radio", { name: "Cell", exact: true }).click();
   const process = page.getByRole("region", { name: "Six steps to a cell" });
-  expect(await process.getByRole("listitem").locator("b").allInnerTexts()).toEqual(
+  expect(await process.getByRole("listitem").locator("b").allTextContents()).toEqual(
     ["Objects", "Kinematics", "Interactions", "Scenario", "Run", "Execute and correct"].map((name, i) =>
       expect.stringContaining(name + (i < 4 ? " done" : "")),
     ),

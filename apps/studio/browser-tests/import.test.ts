@@ -378,53 +378,52 @@ test("M-06, M-08 an imported STL is moved, turned and made twice as large by typ
     await field.fill(value);
     await field.press("Enter");
   };
-  /** Corners of the box round what is drawn, in the world. */
-  const drawnBox = () =>
-    page.evaluate(async id => {
-      const before = window.twincellScene!.frames;
-      while (window.twincellScene!.frames === before) await new Promise(resolve => setTimeout(resolve, 20));
-      const lower = [Infinity, Infinity, Infinity];
-      const upper = [-Infinity, -Infinity, -Infinity];
-      window.twincellScene!.scene.getObjectByName(id)!.traverse(each => {
-        const mesh = each as unknown as {
-          isMesh?: boolean;
-          geometry: { attributes: { position: { count: number; array: ArrayLike<number> } } };
-          matrixWorld: { elements: ArrayLike<number> };
-        };
-        if (!mesh.isMesh) return;
-        const { array, count } = mesh.geometry.attributes.position;
-        const m = mesh.matrixWorld.elements;
-        for (let i = 0; i < count; i++) {
-          const [x, y, z] = [array[3 * i]!, array[3 * i + 1]!, array[3 * i + 2]!];
-          const at = [0, 1, 2].map(k => m[k]! * x + m[4 + k]! * y + m[8 + k]! * z + m[12 + k]!);
-          // The scene is y-up.
-          [at[0]!, -at[2]!, at[1]!].forEach((value, k) => {
-            lower[k] = Math.min(lower[k]!, value);
-            upper[k] = Math.max(upper[k]!, value);
-          });
-        }
-      });
-      return {
-        size: upper.map((value, k) => value - lower[k]!),
-        middle: upper.map((value, k) => (value + lower[k]!) / 2),
-      };
-    }, part!.id);
-  const near = (values: readonly number[], wanted: readonly number[]): void =>
-    values.forEach((value, k) => expect(value).toBeCloseTo(wanted[k]!, 4));
-  near((await drawnBox()).size, [0.4, 0.1, 0.05]);
+  /** Waits until what is drawn has these sides and, where asked, its middle at that x [m]. */
+  const drawnAs = (size: readonly number[], x_m?: number): Promise<unknown> =>
+    page.waitForFunction(
+      ([id, wanted, middle]) => {
+        const lower = [Infinity, Infinity, Infinity];
+        const upper = [-Infinity, -Infinity, -Infinity];
+        window.twincellScene!.scene.getObjectByName(id)?.traverse(each => {
+          const mesh = each as unknown as {
+            isMesh?: boolean;
+            geometry: { attributes: { position: { count: number; array: ArrayLike<number> } } };
+            matrixWorld: { elements: ArrayLike<number> };
+          };
+          if (!mesh.isMesh) return;
+          const { array, count } = mesh.geometry.attributes.position;
+          const m = mesh.matrixWorld.elements;
+          for (let i = 0; i < count; i++) {
+            const at = [0, 1, 2].map(
+              k => m[k]! * array[3 * i]! + m[4 + k]! * array[3 * i + 1]! + m[8 + k]! * array[3 * i + 2]! + m[12 + k]!,
+            );
+            // The scene is y-up.
+            [at[0]!, -at[2]!, at[1]!].forEach((value, k) => {
+              lower[k] = Math.min(lower[k]!, value);
+              upper[k] = Math.max(upper[k]!, value);
+            });
+          }
+        });
+        return (
+          wanted.every((side, k) => Math.abs(upper[k]! - lower[k]! - side) < 1e-4) &&
+          (middle === undefined || Math.abs((upper[0]! + lower[0]!) / 2 - middle) < 1e-4)
+        );
+      },
+      [part!.id, size, x_m] as const,
+      { timeout: 30_000, polling: 100 },
+    );
+  await drawnAs([0.4, 0.1, 0.05]);
   await type("Position X", "900");
-  await type("Rotation Z", "90");
-  const turned = await drawnBox();
-  near(turned.size, [0.1, 0.4, 0.05]);
-  expect(turned.middle[0]).toBeCloseTo(0.9, 4);
+  await type("Rotation Rz", "90");
+  await drawnAs([0.1, 0.4, 0.05], 0.9);
   await type("Scale factor", "2");
-  near((await drawnBox()).size, [0.2, 0.8, 0.1]);
+  await drawnAs([0.2, 0.8, 0.1], 0.9);
   for (const size of [
     [0.1, 0.4, 0.05],
     [0.4, 0.1, 0.05],
   ]) {
     await page.evaluate(() => window.twincell.run("edit.undo"));
-    near((await drawnBox()).size, size);
+    await drawnAs(size);
   }
   expect(open.problems).toEqual([]);
 }, 120_000);
