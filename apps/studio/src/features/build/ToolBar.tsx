@@ -23,7 +23,7 @@ const DISPLAYS: readonly BuildState["display"][] = ["smooth", "flat", "wire", "p
 const NO_SECTION = "none";
 const SECTIONS_M = [0.25, 0.5, 0.75, 1, 1.5, 2] as const;
 const gridWords = (grid_m: number): string =>
-  grid_m === 0 ? words.build.noGrid : `${words.build.grid} ${showNumber(grid_m, "length", 0)} mm`;
+  grid_m === 0 ? words.build.noGrid : `${showNumber(grid_m, "length", 0)} mm`;
 
 /** One bar over the view: with what objects are moved, and onto what they snap. */
 export function ToolBar() {
@@ -48,9 +48,13 @@ export function ToolBar() {
       ))}
       <i className="build-line" aria-hidden />
       <Tip words={words.build.snapTip} keys="S">
-        <button className="btn quiet" aria-pressed={snap} onClick={() => runCommand("build.snap")}>
+        <button
+          className="btn quiet icon"
+          aria-label={words.build.snap}
+          aria-pressed={snap}
+          onClick={() => runCommand("build.snap")}
+        >
           <Magnet />
-          {words.build.snap}
         </button>
       </Tip>
       <Chooser
