@@ -265,10 +265,12 @@ describe("a robot of a server", () => {
     expect(near(a, b)).toBeLessThan(1e-4);
   }, 120_000);
 
-  test("run --on sends a checked program, refuses a red one with the finding, runs a vendor's text", async () => {
+  test("run --on sends a checked program, refuses a red one with the finding and a breakpoint in a text, runs a vendor's text", async () => {
     const arm = ["--on", at[1]!, "--station", "arm"];
     const good = programFile("good", step("a", turned(0.1)), step("b", turned(0)));
     expect(outcomeOf(await twincell("run", good, ...arm, "--as-text"))).toEqual(DONE);
+    const held = await twincell("run", good, ...arm, "--as-text", "--breakpoint", "b");
+    expect([held.code, outcomeOf(held)]).toMatchObject([1, { kind: "refused", why: { code: "production.text" } }]);
     const red = programFile("red", step("a", [...turned(0).slice(0, 5), 99]));
     const refused = await twincell("run", red, ...arm);
     expect([refused.code, outcomeOf(refused)]).toMatchObject([1, { kind: "refused", why: { code: "limits.joint" } }]);
@@ -276,52 +278,6 @@ describe("a robot of a server", () => {
     writeFileSync(text, `def there():\n  movej([${turned(0.15).join(", ")}], a=1.4, v=1.05)\nend\n`);
     expect(outcomeOf(await twincell("run", text, "--dialect", "urscript", ...arm))).toEqual(DONE);
     expect((await standsAt([...at, "--station", "arm"]))[0]).toBeCloseTo(turned(0.15)[0]!, 3);
-  }, 180_000);
-
-  test("T-53 X-56 run --on --cycles: held before a breakpoint, one step, a saved file takes over at the next cycle; moved by hand by another process meanwhile and handed back, it ends where the new program ends", async () => {
-    const arm = ["--station", "arm"];
-    expect(outcomeOf(await twincell("move", ...at, ...arm, "--joints", turned(0).join(","), "--ratio", "1"))).toEqual(
-      DONE,
-    );
-    const path = programFile("cycle", step("a", turned(0.1)), step("b", turned(0.2)), step("c", turned(0.1)));
-    const child = spawn(
-      process.execPath,
-      ["apps/cli/src/main.ts", "run", path, "--on", at[1]!, ...arm, "--cycles", "2", "--breakpoint", "b", "--reload"],
-      { cwd: root, stdio: ["pipe", "pipe", "pipe"] },
-    );
-    const ended = new Promise<number | null>(resolve => child.once("exit", resolve));
-    ends.push(() => void child.kill("SIGKILL"));
-    let out = "";
-    child.stdout.on("data", chunk => (out += String(chunk)));
-    const lines = createInterface({ input: child.stderr })[Symbol.asyncIterator]();
-    const says = async (words: string): Promise<void> => {
-      for (let line = await lines.next(); line.done !== true; line = await lines.next())
-        if (line.value.includes(words)) return;
-      throw new Error(`It ended without “${words}”: ${out}`);
-    };
-    const type = (line: string): void => void child.stdin.write(`${line}\n`);
-    await says("cycle 1 of 2, cycle: held before step b");
-    type("step");
-    await says("cycle 1 of 2, cycle: held before step c");
-    expect((await standsAt([...at, ...arm]))[0]).toBeCloseTo(turned(0.2)[0]!, 3);
-    type("twice");
-    await says('There is no "twice" here');
-    writeFileSync(path, '{"no":"program"}');
-    await says("What runs goes on.");
-    programFile("cycle", step("n", turned(-0.15)));
-    await says("cycle takes over at the next cycle");
-    type("breakpoints");
-    type("hold");
-    await says("The lease is given away");
-    expect(outcomeOf(await twincell("move", ...at, ...arm, "--joints", turned(0.3).join(","), "--ratio", "1"))).toEqual(
-      DONE,
-    );
-    type("resume");
-    await says("cycle 2 of 2, cycle: running, step n");
-    expect([await ended, JSON.parse(out)]).toEqual([0, DONE]);
-    expect((await standsAt([...at, ...arm]))[0]).toBeCloseTo(turned(-0.15)[0]!, 3);
-    const text = await twincell("run", path, "--on", at[1]!, ...arm, "--as-text", "--breakpoint", "n");
-    expect([text.code, outcomeOf(text)]).toMatchObject([1, { kind: "refused", why: { code: "production.text" } }]);
   }, 180_000);
 
   test("connections of the file are open after a start; a controller that is gone keeps no other away", async () => {

@@ -57,7 +57,20 @@ export function stateLine({ state, cycle, of, program, step, next }: State): str
   return `${which}, ${program}: ${state}${where}${then}`;
 }
 
-/** Runs a program cycle after cycle, steered by lines of standard input. */
+/** Where lines come from that steer a production, and where it says how it stands. */
+export interface Console {
+  readonly input: NodeJS.ReadableStream;
+  say(line: string): void;
+}
+/** Standard input, and standard error. */
+export const PROCESS_CONSOLE: Console = {
+  input: process.stdin,
+  say(line) {
+    process.stderr.write(`twincell: ${line}\n`);
+  },
+};
+
+/** Runs a program cycle after cycle, steered by lines of a console. */
 export async function produceOn(
   options: Given,
   { info, onTold }: Pick<RobotAt, "info" | "onTold">,
@@ -65,14 +78,12 @@ export async function produceOn(
   stop: () => void,
   program: Program,
   read: (path: string) => Promise<Program>,
+  { input, say }: Console = PROCESS_CONSOLE,
 ): Promise<CommandOutcome> {
   const station = info.id;
   const cycles = cyclesOf(options);
   const asText = options.flag("as-text");
   const despite = codesOf(options);
-  const say = (line: string): void => {
-    process.stderr.write(`twincell: ${line}\n`);
-  };
   let isHeld = false;
   let last = "";
   /** Given away so that others may move the robot by hand. */
@@ -151,7 +162,7 @@ export async function produceOn(
   };
   const [path] = options.positionals;
   const reloads = options.flag("reload") && path !== undefined;
-  const lines = createInterface({ input: process.stdin });
+  const lines = createInterface({ input });
   lines.on("line", line => void obey(line));
   if (reloads) watchFile(path, { interval: RELOAD_MS }, () => void replace(path));
   try {
@@ -168,7 +179,7 @@ export async function produceOn(
   } finally {
     off();
     lines.close();
-    process.stdin.unref?.();
+    if (input === process.stdin) process.stdin.unref();
     if (reloads) unwatchFile(path);
   }
 }
