@@ -1,4 +1,4 @@
-import { unwatchFile, watchFile } from "node:fs";
+import { statSync } from "node:fs";
 import { createInterface } from "node:readline";
 import { Fault, type CommandOutcome, type Program } from "@twincell/core";
 import type { EventOf, Request } from "@twincell/protocol";
@@ -161,10 +161,17 @@ export async function produceOn(
     }
   };
   const [path] = options.positionals;
-  const reloads = options.flag("reload") && path !== undefined;
+  const reloaded = options.flag("reload") ? path : undefined;
   const lines = createInterface({ input });
   lines.on("line", line => void obey(line));
-  if (reloads) watchFile(path, { interval: RELOAD_MS }, () => void replace(path));
+  // From here on: what is saved before the first look counts too.
+  let known = reloaded === undefined ? "" : stampOf(reloaded);
+  const looking = setInterval(() => {
+    const now = reloaded === undefined ? "" : stampOf(reloaded);
+    if (reloaded === undefined || now === known || now === "") return;
+    known = now;
+    void replace(reloaded);
+  }, RELOAD_MS);
   try {
     return await ask({
       type: "produce",
@@ -180,8 +187,13 @@ export async function produceOn(
     off();
     lines.close();
     if (input === process.stdin) process.stdin.unref();
-    if (reloads) unwatchFile(path);
+    clearInterval(looking);
   }
 }
 /** A saved file is seen within this [ms]. */
 const RELOAD_MS = 250;
+/** What changes when a file is saved; "" while there is none. */
+function stampOf(path: string): string {
+  const stat = statSync(path, { throwIfNoEntry: false });
+  return stat ? `${stat.mtimeMs} ${stat.size}` : "";
+}
