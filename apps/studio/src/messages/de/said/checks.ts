@@ -83,6 +83,9 @@ export const saidByChecks: Sentences = {
   "{a} touches {b} at {time}.": "{a} berührt {b} bei {time}.",
   "{what} The controller may round this corner otherwise than planned: use zone 0, or leave more room.":
     "{what} Die Steuerung kann diese Ecke anders verschleifen als geplant: Zone 0 nehmen oder mehr Platz lassen.",
+  "The corner at {time} is not proven clear all over: the arm does not reach all of what a controller may make of it in this posture. Use zone 0, or a smaller one.":
+    "Die Ecke bei {time} ist nicht überall als frei bewiesen: Der Arm erreicht in dieser Stellung nicht alles, was eine " +
+    "Steuerung daraus machen kann. Zone 0 nehmen oder eine kleinere.",
   "Stop at the point: zone 0.": "Am Punkt halten: Zone 0.",
   "{a} would touch {b} at {time}.": "{a} würde {b} bei {time} berühren.",
   "{a} would touch {b}.": "{a} würde {b} berühren.",
