@@ -93,6 +93,15 @@ function without<A extends { readonly kind: string }>(
     }
     return said;
   };
+  /** Takes a call out of a line that holds more than it. */
+  const callGoes = (fault: TextFault): boolean => {
+    const line = lines[fault.line - 1];
+    const rest = line === undefined ? undefined : withoutCall(line, fault, shapes);
+    if (line === undefined || rest === undefined) return false;
+    skipped.push({ ...told(fault, line, [line], shapes), fault });
+    lines[fault.line - 1] = rest;
+    return true;
+  };
   let faults: readonly TextFault[] = [];
   let first: readonly TextFault[] | undefined;
   for (let reading = 0; reading < MOST_READINGS; reading++) {
@@ -112,10 +121,7 @@ function without<A extends { readonly kind: string }>(
     for (const fault of faults) {
       const at = fault.line - 1;
       const line = lines[at];
-      const shorter = only === undefined || line === undefined ? undefined : withoutCall(line, fault, shapes);
-      if (shorter !== undefined) {
-        skipped.push({ ...told(fault, line!, [line!], shapes), fault });
-        lines[at] = shorter;
+      if (only !== undefined && callGoes(fault)) {
         isShorter = true;
         continue;
       }
