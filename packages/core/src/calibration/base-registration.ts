@@ -97,7 +97,10 @@ export function registerBase(
   if (touches.length < MIN_TOUCHES && driven.length < MIN_DRIVEN)
     return {
       kind: "too-few",
-      sentence: `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ${touches.length} and ${driven.length} were given.`,
+      sentence:
+        driven.length === 0
+          ? `${MIN_TOUCHES} touched points are the least; ${touches.length} were given.`
+          : `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ${touches.length} and ${driven.length} were given.`,
     };
   const start = touches.length >= MIN_TOUCHES ? registerPoints(touches.map(pairOf)) : startFromDriven(driven);
   if (start.kind === "too-few" || start.kind === "not-a-point") return { kind: start.kind, sentence: start.sentence };
@@ -242,7 +245,11 @@ class Fit {
       sentence: "",
     };
     const bound_m = registrationBound(registered, [0, 0, 0], at_s);
-    const sentence = `The base is known to ${(1000 * bound_m).toFixed(1)} mm (95 %), from ${this.#touches.length} touched points and ${this.#driven.length} driven poses; they are met to ${(1000 * rms_m).toFixed(1)} mm (root mean square).`;
+    const [bound, rms] = [bound_m, rms_m].map(value => (1000 * value).toFixed(1));
+    const sentence =
+      this.#driven.length === 0
+        ? `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points; they are met to ${rms} mm (root mean square).`
+        : `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points and ${this.#driven.length} driven poses; they are met to ${rms} mm (root mean square).`;
     return { ...registered, bound_m, sentence };
   }
 

@@ -25,7 +25,8 @@ export const device = {
     headset: "Die Seite im Browser des Headsets öffnen.",
     camera: "Diese Seite darf nicht nach einer Kamera fragen. Über https in einem Browser öffnen, der eine hat.",
     graphics:
-      "Ohne sie wird die Zelle nicht gezeichnet. Hardwarebeschleunigung einschalten oder einen anderen Browser nehmen.",
+      "Ohne sie wird die Zelle nicht gezeichnet. Hardwarebeschleunigung einschalten oder einen anderen Browser " +
+      "nehmen.",
     socket: "Kein Server antwortet: die Seite arbeitet allein, ohne reale Steuerungen. npx twincell serve starten.",
   },
   latency: "Verzögerung, Stufe für Stufe",
