@@ -14,7 +14,7 @@ const mayInstall = {
   formats: ["meshoptimizer", "saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
   physics: ["@mujoco/mujoco"],
-  project: ["zod"],
+  project: ["zod", "yjs"],
   protocol: ["zod"],
 };
 /** Folders of core, lowest first: each may use those before it and the files beside them that know no folder. */

@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
+import { documentFolder } from "./api/documents.ts";
 import { apiHandlers } from "./api/handlers.ts";
 import { createJudge } from "./api/judge.ts";
 import { apiListener } from "./api/listener.ts";
@@ -16,6 +17,8 @@ import { certificate } from "./authority.ts";
 import { lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { editingRoute } from "./editing/route.ts";
+import { createSharedCells } from "./editing/shared-cells.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
 import { readConnections, restoreConnections } from "./stations/connections.ts";
@@ -27,6 +30,7 @@ import { hasAccounts, openAccounts, type Account, type Accounts } from "./people
 import { auditHost } from "./people/audit-host.ts";
 import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
+import { cellLinks } from "./people/links.ts";
 import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { siteFiles } from "./site-files.ts";
@@ -104,7 +108,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet; reached?: string } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -129,6 +133,10 @@ export async function serve(options: ServeOptions): Promise<Served> {
     onTrouble: say,
   });
   const judge = createJudge();
+  const links = cellLinks(tokens);
+  const linkOf = (cookies: string | undefined): string | null => links.of(cookies)?.cell ?? null;
+  const cells = documentFolder(data, "cells");
+  const shared = createSharedCells({ folder: data, cells, scheduler: nodeScheduler, say });
   const counts = new Map<number, number>();
   let ready = true;
   const api = apiListener({
@@ -139,12 +147,19 @@ export async function serve(options: ServeOptions): Promise<Served> {
       judge,
       scheduler: nodeScheduler,
       data: options.data,
+      programs: documentFolder(data, "programs"),
+      cells,
+      shared,
+      now_ms: dated_ms,
+      reached: () => parts.reached ?? "",
+      linkOf,
       requests: { byClass: counts },
       ready: () => ready,
       fleet: () => parts.fleet!,
       training: options.training === true,
       people: accounts && {
         training: options.training === true,
+        linkOf,
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
@@ -160,7 +175,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
   const own = options.lan ? await certificate(options.data, addresses, hostname()) : null;
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, own?.authority);
+  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, links, own?.authority);
   const server = own ? createHttps({ key: own.key, cert: own.cert }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
   const logging = logRobots(states, log);
@@ -200,6 +215,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     // As other machines reach it; a server for this machine alone is reached by none.
     const reached =
       addresses[0] === undefined ? "" : `https://${addresses[0]}:${(server.address() as AddressInfo).port}/`;
+    parts.reached = reached;
     parts.fleet = options.nats ? await joinFleet(context, options.nats, reached) : ownFleet(context, reached);
     standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
@@ -223,7 +239,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations, gate.nameOf, gate.roleOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    [
+      connectionRoute(stations, gate.nameOf, gate.roleOf),
+      streamRoute(stations, nodeScheduler),
+      videoRoute(relay),
+      editingRoute(shared, gate, nodeScheduler),
+    ],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
       stays: gate.stays,
@@ -237,6 +258,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     robots.stop("server", undefined, false);
     restoring?.close();
     socket.close();
+    await shared.close();
     robots.close();
     await standards.close();
     const moving = (id: string): boolean => states.all.get(id)?.sample?.moving === true;

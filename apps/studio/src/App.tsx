@@ -46,6 +46,7 @@ import "./app.css";
 
 const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
+const Together = lazy(() => import("./features/together/Together.tsx"));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
@@ -216,6 +217,7 @@ export function App() {
         <Suspense>
           <Cameras />
           <People />
+          <Together />
           <Fleet />
           <RegistrationDialog />
           <DeviceCheck />

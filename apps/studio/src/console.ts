@@ -34,6 +34,7 @@ import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { textStore } from "./stores/text.ts";
+import { togetherStore } from "./stores/together.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -68,6 +69,7 @@ const twincell = {
     soundStore,
     stationStore,
     textStore,
+    togetherStore,
     traceStore,
     videoStore,
     viewStore,

@@ -62,6 +62,7 @@ export const viewCommands = (): readonly Command[] => [
   { id: "help.device", group: "help", words: words.device.command, run: () => openDialog("device") },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },
   { id: "view.people", group: "view", words: words.people.command, run: () => openDialog("people") },
+  { id: "view.together", group: "view", words: words.together.command, run: () => openDialog("together") },
   { id: "view.fleet", group: "view", words: words.fleet.command, run: () => openDialog("fleet") },
   { id: "view.cameras", group: "view", words: words.video.command, run: () => openDialog("cameras") },
   {

@@ -12,6 +12,7 @@ import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
+import { togetherStore } from "../stores/together.ts";
 import { traceStore } from "../stores/trace.ts";
 import { baseMapStore } from "../stores/base-map.ts";
 import { repairStore } from "../stores/repairs.ts";
@@ -19,6 +20,7 @@ import { viewStore } from "../stores/view.ts";
 import { type CameraWishes, Controls } from "./camera/controls.tsx";
 import { ViewCube } from "./camera/view-cube.tsx";
 import { FrameMeter } from "./frame-meter.ts";
+import { TargetSphere } from "./handle/target-sphere.tsx";
 import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
 import { PartDrop } from "./objects/part-drop.tsx";
@@ -49,6 +51,9 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const EditorPointers = lazy(() =>
+  import("./objects/editor-pointers.tsx").then(part => ({ default: part.EditorPointers })),
+);
 const BaseMapView = lazy(() => import("./base-map-view.tsx").then(part => ({ default: part.BaseMapView })));
 const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
@@ -65,6 +70,7 @@ export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode);
   const baseMap = useStore(baseMapStore, state => state.on && state.field !== null);
+  const together = useStore(togetherStore, state => state.editors.some(({ presence }) => presence?.pointer_m));
   const repairShown = useStore(repairStore, state => state.shown !== null);
   const inHeadset = useStore(viewStore, state => state.inHeadset);
   const onMarker = useStore(markerViewStore, state => state.on);
@@ -153,6 +159,11 @@ export function Viewport() {
                 <RepairGhost document={document} robot={robot} tool={tool} />
               </Suspense>
             )}
+            {together && (
+              <Suspense fallback={null}>
+                <EditorPointers />
+              </Suspense>
+            )}
             {baseMap && (
               <Suspense fallback={null}>
                 <BaseMapView />
@@ -176,6 +187,7 @@ export function Viewport() {
               theme={colours}
               targets={targets}
             />
+            <TargetSphere theme={colours} />
             <Ghost interaction={interaction} tool={tool} theme={colours} />
             {document && mode === "cell" && anything && !inHeadset && (
               <Suspense fallback={null}>

@@ -15,6 +15,7 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "people"
+  | "together"
   | "fleet"
   | "shapes"
   | "run-question"

@@ -13,6 +13,7 @@ import { language, words } from "../../messages/index.ts";
 import { languages, nameOf } from "../../messages/languages.ts";
 import { CellName } from "./CellName.tsx";
 import { ControllerChip } from "./ControllerChip.tsx";
+import { Editors } from "./Editors.tsx";
 import { Override } from "./Override.tsx";
 import { StopButton } from "./StopButton.tsx";
 import "./topbar.css";
@@ -22,6 +23,7 @@ const MENU: readonly (readonly string[])[] = [
   ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],
   [
+    "view.together",
     "view.cameras",
     "view.marker",
     "view.people",
@@ -50,6 +52,7 @@ export function TopBar({ phone }: { phone: boolean }) {
       {!phone && (
         <>
           <CellName />
+          <Editors />
           <UndoRedo />
         </>
       )}

@@ -22,6 +22,7 @@ export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { togetherWords } from "./together.ts";
 import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
@@ -48,6 +49,7 @@ export const catalogue: Translation<typeof en> = {
   registration,
   scene,
   text: textWords,
+  together: togetherWords,
   tools,
   video: videoWords,
 };

@@ -3,6 +3,7 @@ import { saidByChecks } from "./said/checks.ts";
 import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidByRobots } from "./said/robots.ts";
+import { saidTogether } from "./said/together.ts";
 import { saidByTexts } from "./said/texts.ts";
 import { saidByVision } from "./said/vision.ts";
 
@@ -14,4 +15,5 @@ export const sentences: Sentences = {
   ...saidByTexts,
   ...saidByExport,
   ...saidByVision,
+  ...saidTogether,
 };

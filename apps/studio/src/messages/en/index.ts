@@ -19,6 +19,7 @@ import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { togetherWords } from "./together.ts";
 import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
@@ -45,6 +46,7 @@ export const en = {
   registration,
   scene,
   text: textWords,
+  together: togetherWords,
   tools,
   video: videoWords,
 };
