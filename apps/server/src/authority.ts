@@ -1,4 +1,3 @@
-import { webcrypto } from "node:crypto";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
@@ -99,13 +98,13 @@ async function keep(folder: string | undefined, name: string, value: unknown): P
   await writeFile(join(folder, name), JSON.stringify(value), { mode: 0o600 });
 }
 
-const newKeys = () => webcrypto.subtle.generateKey(ALGORITHM, true, ["sign", "verify"]);
-async function keyPem(key: webcrypto.CryptoKey): Promise<string> {
-  const text = Buffer.from(await webcrypto.subtle.exportKey("pkcs8", key)).toString("base64");
+const newKeys = () => crypto.subtle.generateKey(ALGORITHM, true, ["sign", "verify"]);
+async function keyPem(key: Awaited<ReturnType<typeof newKeys>>["privateKey"]): Promise<string> {
+  const text = Buffer.from(await crypto.subtle.exportKey("pkcs8", key)).toString("base64");
   return `-----BEGIN PRIVATE KEY-----\n${text.match(/.{1,64}/g)!.join("\n")}\n-----END PRIVATE KEY-----\n`;
 }
 const serial = (): string =>
-  Buffer.from(webcrypto.getRandomValues(new Uint8Array(8)))
+  Buffer.from(crypto.getRandomValues(new Uint8Array(8)))
     .toString("hex")
     .replace(/^./, "1");
 
@@ -156,7 +155,7 @@ export async function certificate(
   const keys = await newKeys();
   const issuer = new X509Certificate(authority.cert);
   const body = authority.key.replaceAll(/-----[^-]+-----|\s/g, "");
-  const signingKey = await webcrypto.subtle.importKey("pkcs8", Buffer.from(body, "base64"), ALGORITHM, false, ["sign"]);
+  const signingKey = await crypto.subtle.importKey("pkcs8", Buffer.from(body, "base64"), ALGORITHM, false, ["sign"]);
   const cert = await X509CertificateGenerator.create({
     serialNumber: serial(),
     subject: "CN=Twincell",

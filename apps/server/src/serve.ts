@@ -175,7 +175,15 @@ export async function serve(options: ServeOptions): Promise<Served> {
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
   const own = options.lan ? await certificate(options.data, addresses, hostname()) : null;
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, links, own?.authority);
+  const listener = studioListener(
+    siteFiles(options.studio, options.docs),
+    hosts,
+    access,
+    api,
+    say,
+    links,
+    own?.authority,
+  );
   const server = own ? createHttps({ key: own.key, cert: own.cert }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
   const logging = logRobots(states, log);

@@ -71,6 +71,8 @@ const MIN_DRIVEN = 4;
 /** The assumed noise counts as much as so many degrees of freedom against what the residuals show. */
 const TRUST = 20;
 const STEPS = 12;
+/** A step this small, in metres and radians, is the last. */
+const CONVERGED = 1e-11;
 /** Noise so many times the assumed one is no noise any more. */
 const MAX_NOISE_RATIO = 3;
 /** A device must have been turned by so much between samples, about more than one axis. */
@@ -215,6 +217,7 @@ class Fit {
       if (!solveSymmetric(this.#A, this.#b, this.#n))
         return { kind: "in-line", sentence: "The samples do not tell how the base is turned: spread them farther." };
       this.#move();
+      if (this.#b.every(value => Math.abs(value) < CONVERGED)) break;
     }
     this.#gather();
     const rms_m = this.#rms();
