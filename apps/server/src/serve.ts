@@ -1,6 +1,8 @@
+import { X509Certificate } from "node:crypto";
 import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
+import { hostname } from "node:os";
 import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
@@ -11,7 +13,8 @@ import { createJudge } from "./api/judge.ts";
 import { apiListener } from "./api/listener.ts";
 import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
 import { streamRoute } from "./api/stream.ts";
-import { certificate, lanAddresses } from "./lan.ts";
+import { certificate } from "./authority.ts";
+import { lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { editingRoute } from "./editing/route.ts";
@@ -76,6 +79,8 @@ export interface Served {
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** SHA-256 of the authority that a device may trust (see /trust/); null without `lan`. */
+  readonly fingerprint: string | null;
   /** Where the first admin chooses a name and a password; null when there is one, or nobody signs in by name. */
   readonly setUp: string | null;
   /** Where each standard that was asked for is spoken. */
@@ -169,9 +174,17 @@ export async function serve(options: ServeOptions): Promise<Served> {
     closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, links);
-  const own = options.lan ? await certificate(options.data, addresses) : null;
-  const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
+  const own = options.lan ? await certificate(options.data, addresses, hostname()) : null;
+  const listener = studioListener(
+    siteFiles(options.studio, options.docs),
+    hosts,
+    access,
+    api,
+    say,
+    links,
+    own?.authority,
+  );
+  const server = own ? createHttps({ key: own.key, cert: own.cert }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
   const logging = logRobots(states, log);
   const end = (): void => {
@@ -279,6 +292,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
+    fingerprint: own ? new X509Certificate(own.authority).fingerprint256 : null,
     standards: standards.addresses,
     close: () => (closing ??= close()),
   };
