@@ -178,7 +178,7 @@ function attempt(bare: boolean, seed: number): PickRow {
   return { ...which, verdict, off_m, highest_m, seconds, sentence };
 }
 
-describe("X-54 the pick and place of row X-34, taught with the hands of a headset, 20 attempts each", () => {
+describe("X-54 the pick and place of the table of the command line, taught with the hands of a headset, 20 attempts each", () => {
   test.each([
     ["controllers", false],
     ["bare hands", true],
