@@ -103,7 +103,7 @@ export const headset = {
   keypad: "Keypad",
   physics: "Physics",
   numbers: { x: "X mm", y: "Y mm", z: "Z mm", speed: "Speed %" },
-  jog: { "less(axis)": "− {axis}", "more(axis)": "{axis} +" },
+  jog: { "less(axis)": "{axis} -", "more(axis)": "{axis} +" },
   set: "Set",
   close: "Close",
   "numberOutside(least, most)": "Type a number from {least} to {most}.",
