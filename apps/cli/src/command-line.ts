@@ -29,16 +29,19 @@ async function main(argv: readonly string[]): Promise<number> {
   return command.run(rest);
 }
 
-addCatalogue(CATALOGUE);
-try {
-  process.exitCode = await main(process.argv.slice(2));
-} catch (problem) {
-  const part = missingPart(problem);
-  if (part !== undefined) {
-    process.stderr.write(`twincell: ${part}\n`);
-    process.exit(2);
+/** Carries out one line of the command line; the exit code is set, a fault is one sentence on stderr. */
+export async function runCommandLine(argv: readonly string[]): Promise<void> {
+  addCatalogue(CATALOGUE);
+  try {
+    process.exitCode = await main(argv);
+  } catch (problem) {
+    const part = missingPart(problem);
+    if (part !== undefined) {
+      process.stderr.write(`twincell: ${part}\n`);
+      process.exit(2);
+    }
+    if (!(problem instanceof Fault)) throw problem;
+    process.stderr.write(`twincell: ${problem.message}${problem.hint ? ` ${problem.hint}` : ""}\n`);
+    process.exitCode = 2;
   }
-  if (!(problem instanceof Fault)) throw problem;
-  process.stderr.write(`twincell: ${problem.message}${problem.hint ? ` ${problem.hint}` : ""}\n`);
-  process.exitCode = 2;
 }

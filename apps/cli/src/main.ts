@@ -16,4 +16,5 @@ const { status } = enableCompileCache(process.env["NODE_COMPILE_CACHE"]);
 // Threads and processes of this one would try again, and fail again.
 if (status === constants.compileCacheStatus.FAILED) delete process.env["NODE_COMPILE_CACHE"];
 
-await import("./command-line.ts");
+const { runCommandLine } = await import("./command-line.ts");
+await runCommandLine(process.argv.slice(2));

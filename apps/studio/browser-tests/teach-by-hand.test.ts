@@ -1,4 +1,14 @@
-import { flangeOfTcp, robotById, solveAll, type Pose, type Vector3 } from "@twincell/core";
+import { readFile } from "node:fs/promises";
+import {
+  compose,
+  distanceToPolyline,
+  flangeOfTcp,
+  flangePose,
+  robotById,
+  solveAll,
+  type Pose,
+  type Vector3,
+} from "@twincell/core";
 import { edgeTraceCell } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -162,4 +172,208 @@ test("L-28 L-30 the ring at the tool is dragged with the mouse; the tool follows
   expect(aside[2]).toBeCloseTo(after[2], 6);
   expect(Math.hypot(aside[0] - after[0], aside[1] - after[1])).toBeGreaterThan(0.01);
   expect(problems).toEqual([]);
+});
+
+/** Frames of the page from each press that follows to the first in which the robot stands elsewhere. */
+const watchPresses = (page: Page): Promise<void> =>
+  page.evaluate(() => {
+    const late: number[] = [];
+    let frame = 0;
+    let pressed = -1;
+    let before: readonly number[] = [];
+    const press = (event: Event): void => {
+      if (event instanceof KeyboardEvent && event.repeat) return;
+      pressed = frame;
+      before = [...window.twincell.live.now().q_rad];
+    };
+    addEventListener("pointerdown", press, true);
+    addEventListener("keydown", press, true);
+    const look = (): void => {
+      frame++;
+      const { q_rad } = window.twincell.live.now();
+      if (pressed >= 0 && before.some((angle, j) => angle !== q_rad[j])) {
+        late.push(frame - pressed);
+        pressed = -1;
+      }
+      requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+    window.framesLate = late;
+  });
+declare global {
+  interface Window {
+    framesLate: number[];
+    placesSeen: number[][];
+  }
+}
+
+test("L-27 L-63 L-66 M-44 the pendant and the keyboard move the TCP within one frame; LIN is a straight segment; a saved pose is gone to", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await stand(page, [0.6, 0.1, 0.8]);
+  await page.getByRole("button", { name: "PTP", exact: true }).first().click();
+  await watchPresses(page);
+  const presses = (count: number): Promise<unknown> =>
+    page.waitForFunction(wanted => window.framesLate.length >= wanted, count, { polling: 20 });
+  const key = (await page.getByRole("button", { name: "Jog Y down", exact: true }).boundingBox())!;
+  for (let i = 1; i <= 5; i++) {
+    await page.mouse.move(key.x + key.width / 2, key.y + key.height / 2);
+    await page.mouse.down();
+    await presses(2 * i - 1);
+    await page.mouse.up();
+    await page.keyboard.down("s");
+    await presses(2 * i);
+    await page.keyboard.up("s");
+    await frames(page, 3);
+  }
+  expect(await page.evaluate(() => window.framesLate)).toEqual(Array.from({ length: 10 }, () => 1));
+  await hold(page, "Jog Y down", () => window.twincell.live.now().worldFromTcp.position[1] < -0.1);
+  const end = await tcp(page);
+  expect(end[0]!).toBeCloseTo(0.6, 6);
+  expect(end[2]!).toBeCloseTo(0.8, 6);
+  await page.getByRole("button", { name: "LIN", exact: true }).first().click();
+  await page.getByRole("button", { name: "Pose", exact: true }).first().click();
+  await page.waitForFunction(
+    () => {
+      const { stale, path } = window.twincell.stores.playStore.getState();
+      return !stale && path.length >= 1;
+    },
+    null,
+    { polling: 100 },
+  );
+  const segment = await page.evaluate(() => {
+    const { document } = window.twincell.stores.cellStore.getState();
+    const [program] = document!.programs;
+    const lin =
+      program?.format === "twincell.program"
+        ? program.steps.find(s => s.type === "move" && s.path === "lin")
+        : undefined;
+    return window.twincell.stores.playStore
+      .getState()
+      .path.filter(piece => piece.step === lin?.id)
+      .flatMap(piece => piece.points.map(point => [...point]));
+  });
+  expect(segment.length).toBeGreaterThan(5);
+  for (const [x, , z] of segment) expect(Math.hypot(x! - 0.6, z! - 0.8)).toBeLessThan(1e-5);
+  expect(Math.abs(segment.at(-1)![1]! - end[1]!)).toBeLessThan(1e-5);
+
+  await hold(page, "Jog Z up", () => window.twincell.live.now().worldFromTcp.position[2] > 0.85);
+  await page.getByRole("button", { name: /^Go to “/ }).click();
+  await page.waitForFunction(
+    ([x, y, z]) => {
+      const { position } = window.twincell.live.now().worldFromTcp;
+      return Math.hypot(position[0] - x!, position[1] - y!, position[2] - z!) < 1e-5;
+    },
+    end,
+    { polling: 100 },
+  );
+  await page.screenshot({ path: picture("lead-through") });
+  expect(problems).toEqual([]);
+});
+
+test("X-18 X-29 a visible target sphere is moved by the pendant, the arm follows; out of reach it is red, with the distance", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await stand(page, [0.6, 0, 0.8]);
+  const sphere = (): Promise<{ position: number[]; red: boolean } | null> =>
+    page.evaluate(() => {
+      const found = window.twincellScene!.scene.getObjectByName("target-sphere") as unknown as
+        | { position: { x: number; y: number; z: number }; material: { color: { r: number; g: number } } }
+        | undefined;
+      if (!found) return null;
+      const { position, material } = found;
+      return { position: [position.x, position.y, position.z], red: material.color.r > 2 * material.color.g };
+    });
+  expect(await sphere()).toBeNull();
+  await page.getByRole("button", { name: "Follow a target" }).click();
+  await hold(page, "Jog Y up", () => window.twincell.live.now().worldFromTcp.position[1] > 0.05);
+  await frames(page, 10);
+  const there = (await sphere())!;
+  const tip = await tcp(page);
+  expect(Math.hypot(...there.position.map((value, i) => value - tip[i]!))).toBeLessThan(1e-5);
+  await page.getByText("The tool is at the target.").waitFor();
+  await page.evaluate(() => window.twincell.stores.jogStore.setState({ speed: 1 }));
+  const far = page.getByText(/The tool stays [\d.]{4,} mm away\./);
+  const key = (await page.getByRole("button", { name: "Jog X up", exact: true }).boundingBox())!;
+  await page.mouse.move(key.x + key.width / 2, key.y + key.height / 2);
+  await page.mouse.down();
+  await far.waitFor({ timeout: 60_000 });
+  await page.mouse.up();
+  await frames(page, 5);
+  const out = (await sphere())!;
+  const stays = await tcp(page);
+  const off_mm = Math.hypot(...out.position.map((value, i) => value - stays[i]!)) * 1000;
+  expect(out.red).toBe(true);
+  expect(parseFloat((await far.innerText()).match(/[\d.]+/)![0])).toBeCloseTo(off_mm, 0);
+  await page.screenshot({ path: picture("target-sphere") });
+  expect(problems).toEqual([]);
+});
+
+test("L-32 M-65 what the hand does is recorded: the program passes within 1 mm of every place where the tool was drawn; another person opens and plays it", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await stand(page, [0.6, 0.05, 0.8]);
+  await page.getByRole("button", { name: "While moving" }).click();
+  await page.evaluate(() => {
+    const seen: number[][] = [];
+    window.placesSeen = seen;
+    const look = (): void => {
+      seen.push([...window.twincell.live.now().worldFromTcp.position]);
+      requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+  await hold(page, "Jog Y down", () => window.twincell.live.now().worldFromTcp.position[1] < -0.02);
+  await hold(page, "Jog Z up", () => window.twincell.live.now().worldFromTcp.position[2] > 0.84);
+  await page.getByRole("button", { name: "While moving" }).click();
+  await page.waitForFunction(() => {
+    const [program] = window.twincell.stores.cellStore.getState().document!.programs;
+    return program?.format === "twincell.program" && program.steps.length > 20;
+  });
+  const { seen, recorded } = await page.evaluate(() => {
+    const [program] = window.twincell.stores.cellStore.getState().document!.programs;
+    const steps = program?.format === "twincell.program" ? program.steps : [];
+    return {
+      seen: window.placesSeen,
+      recorded: steps.map(step => (step.type === "move" && "q" in step.target ? [...step.target.q] : [])),
+    };
+  });
+  const path = recorded.map(
+    q => compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, q)), cell.tools[0]!.flangeFromTcp).position,
+  );
+  const off_m = seen.map(place => distanceToPolyline(path, place as Vector3));
+  expect(seen.length).toBeGreaterThan(10);
+  expect(Math.max(...off_m)).toBeLessThan(0.001);
+
+  // Somebody else opens the file and plays it: the tool ends where the hand let go.
+  const saved = page.waitForEvent("download");
+  await page.keyboard.press("Control+s");
+  const file = (await (await saved).path())!;
+  const other = await studio.open({ width: 920, height: 600 });
+  await drawn(other.page);
+  await other.page
+    .locator("[data-file-input]")
+    .setInputFiles({ name: "expert.json", mimeType: "application/json", buffer: await readFile(file) });
+  await other.page.waitForFunction(
+    () => {
+      const { stale, plan } = window.twincell.stores.playStore.getState();
+      return !stale && (plan?.segments.length ?? 0) > 20;
+    },
+    null,
+    { polling: 100, timeout: 60_000 },
+  );
+  await other.page.evaluate(() => {
+    const { duration_s } = window.twincell.stores.playStore.getState().plan!;
+    window.twincell.seek(Math.max(0, duration_s - 0.5));
+  });
+  await other.page.getByRole("button", { name: "Play", exact: true }).click();
+  await other.page.waitForFunction(() => {
+    const { playing, t_s, plan } = window.twincell.stores.playStore.getState();
+    return !playing && t_s === plan!.duration_s;
+  });
+  const ends = await tcp(other.page);
+  seen.at(-1)!.forEach((value, i) => {
+    expect(ends[i]!).toBeCloseTo(value, 6);
+  });
+  expect([...problems, ...other.problems]).toEqual([]);
 });

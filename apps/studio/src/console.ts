@@ -18,6 +18,7 @@ import { headsetStore } from "./stores/headset.ts";
 import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { lessonStore } from "./stores/lesson.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { offlineStore } from "./stores/offline.ts";
@@ -56,6 +57,7 @@ const twincell = {
     jogStore,
     languageStore,
     lessonStore,
+    markerViewStore,
     noticeStore,
     offlineStore,
     physicsStore,

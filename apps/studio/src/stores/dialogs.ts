@@ -20,7 +20,9 @@ export type DialogName =
   | "shapes"
   | "run-question"
   | "demonstration"
-  | "glove";
+  | "glove"
+  | "registration"
+  | "device";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

@@ -25,9 +25,12 @@ const MENU: readonly (readonly string[])[] = [
   [
     "view.together",
     "view.cameras",
+    "view.marker",
     "view.people",
     "view.fleet",
     "view.collision",
+    "view.registration",
+    "help.device",
     "help.controls",
     "help.shortcuts",
     "help.coach",

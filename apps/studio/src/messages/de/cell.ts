@@ -56,6 +56,9 @@ export const cellWords = {
     assumptions: "Angenommen, nicht veröffentlicht",
     object: "Objekt",
     position: "Position",
+    removeFrame: "Frame entfernen",
+    "frameUsed(n: number)":
+      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm aus; zuerst diese ändern.",
     attachedTo: "Befestigt an",
     attachedToCell: "Der Zelle",
     size: "Größe",

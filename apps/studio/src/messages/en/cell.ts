@@ -51,6 +51,9 @@ export const cellWords = {
     assumptions: "Assumed, not published",
     object: "Object",
     position: "Position",
+    removeFrame: "Remove frame",
+    "frameUsed(n: number)":
+      "{n, plural, one {# point or pallet counts} other {# points and pallets count}} from it; change them first.",
     attachedTo: "Attached to",
     attachedToCell: "The cell",
     size: "Size",

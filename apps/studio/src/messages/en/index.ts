@@ -1,6 +1,7 @@
 import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
+import { device } from "./device.ts";
 import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
@@ -8,10 +9,12 @@ import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
 import { glove } from "./glove.ts";
 import { lesson } from "./lesson.ts";
+import { marker } from "./marker.ts";
 import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { registration } from "./registration.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
@@ -28,6 +31,7 @@ export const en = {
   ...checkWords,
   ...controlWords,
   ...recordsWords,
+  device,
   direct,
   editor,
   people: peopleWords,
@@ -35,9 +39,11 @@ export const en = {
   fleet: fleetWords,
   headset,
   lesson,
+  marker,
   offline,
   own,
   phone,
+  registration,
   scene,
   text: textWords,
   together: togetherWords,

@@ -301,6 +301,8 @@ export const saidByChecks: Sentences = {
   "Masses of the links are not published.": "Die Massen der Glieder sind nicht veröffentlicht.",
   "Centres of mass and inertias of the links are not published.":
     "Schwerpunkte und Trägheiten der Glieder sind nicht veröffentlicht.",
+  "Part of the name that the maker gives the model.": "Teil des Namens, den der Hersteller dem Modell gibt.",
+  "The maker's data sheet of the model.": "Das Datenblatt des Herstellers zum Modell.",
   "Computed from these lengths.": "Aus diesen Längen errechnet.",
   "The payload is not stated: whether the robot carries a load is unknown.":
     "Die Traglast ist nicht angegeben: Ob der Roboter eine Last trägt, ist unbekannt.",
