@@ -1,7 +1,7 @@
 /**
  * Forged, broken and oversized requests by somebody without an account at a server where people sign in, a third of
  * them with a read-only link: node scripts/soak/hostile-requests.ts [REQUESTS] [SEED]. Nobody is let in but to look at
- * the cell of the link, which stays as it is, nothing answers 5xx, no act is written down, and the server still answers.
+ * the cell of the link, which stays as it is; nothing answers 5xx, no act is written down, the server still answers.
  * The result is kept beside this file.
  */
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
