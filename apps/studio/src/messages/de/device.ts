@@ -20,7 +20,8 @@ export const device = {
       "Browser geben Headset, Kamera und Betrieb ohne Netz nur sicheren Seiten: über https öffnen (serve --lan) oder " +
       "als localhost (adb reverse).",
     certificate:
-      "Die Seite arbeitet, bleibt aber ohne Netz nicht erhalten. adb reverse benutzen oder ein Zertifikat, dem dieses " +
+      "Die Seite arbeitet, bleibt aber ohne Netz nicht erhalten. adb reverse benutzen oder ein " +
+      "Zertifikat, dem dieses " +
       "Gerät vertraut.",
     headset: "Die Seite im Browser des Headsets öffnen.",
     camera: "Diese Seite darf nicht nach einer Kamera fragen. Über https in einem Browser öffnen, der eine hat.",
