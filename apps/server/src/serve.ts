@@ -132,6 +132,9 @@ export async function serve(options: ServeOptions): Promise<Served> {
     scheduler: nodeScheduler,
     onTrouble: say,
   });
+  const written = (who: string, action: string, detail: string, done: boolean): void => {
+    audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" });
+  };
   const judge = createJudge();
   const links = cellLinks(tokens);
   const linkOf = (cookies: string | undefined): string | null => links.of(cookies)?.cell ?? null;
@@ -163,8 +166,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
-        audit: (who, action, detail, done) =>
-          audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" }),
+        audit: written,
       },
     }),
     headers: HEADERS,
@@ -251,7 +253,13 @@ export async function serve(options: ServeOptions): Promise<Served> {
       connectionRoute(stations, gate.nameOf, gate.roleOf),
       streamRoute(stations, nodeScheduler),
       videoRoute(relay),
-      editingRoute(shared, gate, nodeScheduler),
+      editingRoute(shared, gate, nodeScheduler, (who, action, detail, done) => {
+        try {
+          written(who, action, detail, done);
+        } catch (problem) {
+          say(`The audit log cannot be written: ${problem instanceof Error ? problem.message : String(problem)}.`);
+        }
+      }),
     ],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
