@@ -1,5 +1,20 @@
 import { readFile } from "node:fs/promises";
-import { distance, pose, robotById, transformPoint, unrolled, type Program, type Vector3 } from "@twincell/core";
+import {
+  compose,
+  distance,
+  distanceToPolyline,
+  flangeOfTcp,
+  flangePose,
+  pose,
+  robotById,
+  solveAll,
+  transformPoint,
+  unrolled,
+  type Pose,
+  type Program,
+  type Vector3,
+} from "@twincell/core";
+import { edgeTraceCell } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
@@ -290,4 +305,98 @@ test("a table that is no demonstration is refused with its line, and nothing cha
     .setInputFiles({ name: "bad.csv", mimeType: "text/csv", buffer: Buffer.from("a,b\n1,2\n") });
   await page.getByText("bad.csv, line 1: The column of times, t_s or t_ms, is missing.").waitFor();
   expect(problems).toEqual([]);
+});
+
+declare global {
+  interface Window {
+    placesSeen: number[][];
+  }
+}
+/** Keeps a pendant button pressed until something holds, then lets go. */
+async function held(page: Page, button: string, until: () => boolean): Promise<void> {
+  const box = (await page.getByRole("button", { name: button, exact: true }).boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.waitForFunction(until, null, { timeout: 60_000, polling: 50 });
+  await page.mouse.up();
+}
+
+test("L-32 M-65 a hand that moves the tool by mouse is recorded: the program passes within 1 mm of every place where the tool was drawn; another person opens and plays it", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  const cell = edgeTraceCell();
+  const robot = robotById(cell.robot.id)!;
+  const { flangeFromTcp } = cell.tools[0]!;
+  const above: Pose<"world", "tcp"> = { position: [0.6, 0.05, 0.8], quaternion: [0, 1, 0, 0] };
+  const reach = solveAll(robot, flangeOfTcp(cell.robot.worldFromBase, above, flangeFromTcp), {
+    near: [0, -0.5, 2, 0, 1, 0],
+  });
+  if (reach.kind !== "reached") throw new Error(reach.kind);
+  await page.evaluate(q => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.live.showJoints(q);
+  }, Array.from(reach.solutions[0]!.q_rad));
+  await page.getByRole("button", { name: "While moving" }).click();
+  await page.evaluate(() => {
+    const seen: number[][] = [];
+    window.placesSeen = seen;
+    const look = (): void => {
+      seen.push([...window.twincell.live.now().worldFromTcp.position]);
+      requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+  await held(page, "Jog Y down", () => window.twincell.live.now().worldFromTcp.position[1] < -0.02);
+  await held(page, "Jog Z up", () => window.twincell.live.now().worldFromTcp.position[2] > 0.84);
+  await page.getByRole("button", { name: "While moving" }).click();
+  await page.waitForFunction(() => {
+    const [program] = window.twincell.stores.cellStore.getState().document!.programs;
+    return program?.format === "twincell.program" && program.steps.length > 20;
+  });
+  const { seen, recorded } = await page.evaluate(() => {
+    const [program] = window.twincell.stores.cellStore.getState().document!.programs;
+    const steps = program?.format === "twincell.program" ? program.steps : [];
+    return {
+      seen: window.placesSeen,
+      recorded: steps.map(step => (step.type === "move" && "q" in step.target ? [...step.target.q] : [])),
+    };
+  });
+  const path = recorded.map(
+    q => compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, q)), flangeFromTcp).position,
+  );
+  const off_m = seen.map(place => distanceToPolyline(path, place as Vector3));
+  expect(seen.length).toBeGreaterThan(10);
+  expect(Math.max(...off_m)).toBeLessThan(0.001);
+
+  // Somebody else opens the file and plays it: the tool ends where the hand let go.
+  const saved = page.waitForEvent("download");
+  await page.keyboard.press("Control+s");
+  const file = (await (await saved).path())!;
+  const other = await studio.open({ width: 920, height: 600 });
+  await drawn(other.page);
+  await other.page
+    .locator("[data-file-input]")
+    .setInputFiles({ name: "expert.json", mimeType: "application/json", buffer: await readFile(file) });
+  await other.page.waitForFunction(
+    () => {
+      const { stale, plan } = window.twincell.stores.playStore.getState();
+      return !stale && (plan?.segments.length ?? 0) > 20;
+    },
+    null,
+    { polling: 100, timeout: 60_000 },
+  );
+  await other.page.evaluate(() => {
+    const { duration_s } = window.twincell.stores.playStore.getState().plan!;
+    window.twincell.seek(Math.max(0, duration_s - 0.5));
+  });
+  await other.page.getByRole("button", { name: "Play", exact: true }).click();
+  await other.page.waitForFunction(() => {
+    const { playing, t_s, plan } = window.twincell.stores.playStore.getState();
+    return !playing && t_s === plan!.duration_s;
+  });
+  const ends = await other.page.evaluate(() => [...window.twincell.live.now().worldFromTcp.position]);
+  seen.at(-1)!.forEach((value, i) => {
+    expect(ends[i]!).toBeCloseTo(value, 6);
+  });
+  expect([...problems, ...other.problems]).toEqual([]);
 });
