@@ -2,6 +2,7 @@ import type { IncomingMessage, RequestListener, ServerResponse } from "node:http
 import { askForCode, clientOf, type AccessCode } from "./access.ts";
 import { isApiPath } from "./api/calls.ts";
 import type { apiListener } from "./api/listener.ts";
+import type { CellLinks } from "./people/links.ts";
 import type { staticFiles } from "./static-files.ts";
 
 /** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
@@ -48,6 +49,7 @@ export function studioListener(
   access: AccessCode | null,
   api: ReturnType<typeof apiListener> | null,
   say: (sentence: string) => void,
+  links: CellLinks | null = null,
 ): RequestListener {
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
@@ -84,7 +86,15 @@ export function studioListener(
       say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" });
       return;
     }
-    if (access) {
+    const link = url.searchParams.get("link");
+    if (links && link !== null) {
+      const entered = links.enter(link, "encrypted" in request.socket);
+      if (entered)
+        say(303, "", { "set-cookie": entered.cookie, location: `/?watch=${encodeURIComponent(entered.cell)}` });
+      else say(410, "This link has ended or was taken back.\n");
+      return;
+    }
+    if (access && !links?.of(request.headers.cookie)) {
       const entry = access.enter(
         request.headers.cookie,
         url.searchParams.get("code"),

@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
+import { documentFolder } from "./api/documents.ts";
 import { apiHandlers } from "./api/handlers.ts";
 import { createJudge } from "./api/judge.ts";
 import { apiListener } from "./api/listener.ts";
@@ -13,6 +14,8 @@ import { streamRoute } from "./api/stream.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { editingRoute } from "./editing/route.ts";
+import { createSharedCells } from "./editing/shared-cells.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
 import { readConnections, restoreConnections } from "./stations/connections.ts";
@@ -24,6 +27,7 @@ import { hasAccounts, openAccounts, type Account, type Accounts } from "./people
 import { auditHost } from "./people/audit-host.ts";
 import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
+import { cellLinks } from "./people/links.ts";
 import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { siteFiles } from "./site-files.ts";
@@ -99,7 +103,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet; reached?: string } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -124,6 +128,10 @@ export async function serve(options: ServeOptions): Promise<Served> {
     onTrouble: say,
   });
   const judge = createJudge();
+  const links = cellLinks(tokens);
+  const linkOf = (cookies: string | undefined): string | null => links.of(cookies)?.cell ?? null;
+  const cells = documentFolder(data, "cells");
+  const shared = createSharedCells({ folder: data, cells, scheduler: nodeScheduler, say });
   const counts = new Map<number, number>();
   let ready = true;
   const api = apiListener({
@@ -134,12 +142,19 @@ export async function serve(options: ServeOptions): Promise<Served> {
       judge,
       scheduler: nodeScheduler,
       data: options.data,
+      programs: documentFolder(data, "programs"),
+      cells,
+      shared,
+      now_ms: dated_ms,
+      reached: () => parts.reached ?? "",
+      linkOf,
       requests: { byClass: counts },
       ready: () => ready,
       fleet: () => parts.fleet!,
       training: options.training === true,
       people: accounts && {
         training: options.training === true,
+        linkOf,
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
@@ -154,7 +169,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say);
+  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, links);
   const own = options.lan ? await certificate(options.data, addresses) : null;
   const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
@@ -195,6 +210,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     // As other machines reach it; a server for this machine alone is reached by none.
     const reached =
       addresses[0] === undefined ? "" : `https://${addresses[0]}:${(server.address() as AddressInfo).port}/`;
+    parts.reached = reached;
     parts.fleet = options.nats ? await joinFleet(context, options.nats, reached) : ownFleet(context, reached);
     standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
@@ -218,7 +234,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations, gate.nameOf, gate.roleOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    [
+      connectionRoute(stations, gate.nameOf, gate.roleOf),
+      streamRoute(stations, nodeScheduler),
+      videoRoute(relay),
+      editingRoute(shared, gate, nodeScheduler),
+    ],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
       stays: gate.stays,
@@ -232,6 +253,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     robots.stop("server", undefined, false);
     restoring?.close();
     socket.close();
+    await shared.close();
     robots.close();
     await standards.close();
     const moving = (id: string): boolean => states.all.get(id)?.sample?.moving === true;

@@ -34,6 +34,7 @@ import { cellStore } from "./stores/cell.ts";
 import { textOf, theProgram } from "./stores/document.ts";
 import { lessonStore } from "./stores/lesson.ts";
 import { findStep } from "./stores/program.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { selectionStore, type Thing } from "./stores/selection.ts";
 import { textStore } from "./stores/text.ts";
 import { traceStore } from "./stores/trace.ts";
@@ -45,6 +46,7 @@ import "./app.css";
 
 const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
+const Together = lazy(() => import("./features/together/Together.tsx"));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
@@ -59,6 +61,9 @@ const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
 const Fleet = lazy(() => import("./features/fleet/Fleet.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
+const MarkerPanel = lazy(() => import("./features/marker/MarkerPanel.tsx"));
+const DeviceCheck = lazy(() => import("./features/device/DeviceCheck.tsx"));
+const RegistrationDialog = lazy(() => import("./features/registration/RegistrationDialog.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
@@ -77,6 +82,7 @@ export function App() {
   const building = useStore(viewStore, state => state.mode === "cell");
   const learning = useStore(lessonStore, state => state.lesson !== null);
   const layout = useStore(textStore, state => state.layout);
+  const onMarker = useStore(markerViewStore, state => state.on);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
@@ -129,7 +135,7 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
-          {building && !phone && (
+          {building && !phone && !onMarker && (
             <>
               <ToolBar />
               <MeasureCard />
@@ -151,6 +157,7 @@ export function App() {
           <Physics />
           <Suspense>
             <VideoPanels />
+            {onMarker && <MarkerPanel />}
           </Suspense>
           {!phone && !building && !learning && <Coach />}
           <LessonCard />
@@ -210,7 +217,10 @@ export function App() {
         <Suspense>
           <Cameras />
           <People />
+          <Together />
           <Fleet />
+          <RegistrationDialog />
+          <DeviceCheck />
         </Suspense>
         <Files />
         <LessonFile />

@@ -18,6 +18,7 @@ import { headsetStore } from "./stores/headset.ts";
 import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { lessonStore } from "./stores/lesson.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { offlineStore } from "./stores/offline.ts";
@@ -33,6 +34,7 @@ import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { textStore } from "./stores/text.ts";
+import { togetherStore } from "./stores/together.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -55,6 +57,7 @@ const twincell = {
     jogStore,
     languageStore,
     lessonStore,
+    markerViewStore,
     noticeStore,
     offlineStore,
     physicsStore,
@@ -66,6 +69,7 @@ const twincell = {
     soundStore,
     stationStore,
     textStore,
+    togetherStore,
     traceStore,
     videoStore,
     viewStore,

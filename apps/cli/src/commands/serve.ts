@@ -1,4 +1,5 @@
 import { existsSync, writeFileSync } from "node:fs";
+import { flushCompileCache } from "node:module";
 import { join } from "node:path";
 import { spawn } from "node:child_process";
 import { jsonLog, serve, textLog, type Log, type Served, type ServeOptions } from "@twincell/server";
@@ -95,6 +96,8 @@ SIGINT and SIGTERM stop every robot, wait until it stands, finish recordings and
     );
     if (kind === "json") announce(log, served, data);
     else await greet(served);
+    // Kept now: a server that is killed later is back as quickly.
+    flushCompileCache();
     if (options.flag("open")) openBrowser(served.url);
 
     await new Promise<void>(resolve => {

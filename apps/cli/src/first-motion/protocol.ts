@@ -113,7 +113,7 @@ async function stopOnTheWay(
 /**
  * A slow motion during which a person pulls the cable.
  *
- * @returns done whatever became of the motion: a lost link ends it. What is asked afterwards says whether the arm stood.
+ * @returns done whatever became of the motion: a lost link ends it. The question after it says whether the arm stood.
  */
 export async function pullCable(at: RobotAt, ask: Ask, questions: Questions): Promise<CommandOutcome> {
   const went = await questions.wait(

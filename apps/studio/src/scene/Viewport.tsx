@@ -7,10 +7,12 @@ import { dragFollows } from "../runtime/jog/drag.ts";
 import { buildStore } from "../stores/build.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
+import { markerViewStore } from "../stores/marker-view.ts";
 import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
+import { togetherStore } from "../stores/together.ts";
 import { traceStore } from "../stores/trace.ts";
 import { baseMapStore } from "../stores/base-map.ts";
 import { repairStore } from "../stores/repairs.ts";
@@ -49,12 +51,17 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const EditorPointers = lazy(() =>
+  import("./objects/editor-pointers.tsx").then(part => ({ default: part.EditorPointers })),
+);
 const BaseMapView = lazy(() => import("./base-map-view.tsx").then(part => ({ default: part.BaseMapView })));
 const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
 const Display = lazy(() => import("./gizmo/display.tsx"));
 const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
+const MarkerPicture = lazy(() => import("./marker/marker-picture.tsx"));
+const MarkerCamera = lazy(() => import("./marker/marker-camera.tsx").then(part => ({ default: part.MarkerCamera })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 
@@ -63,8 +70,12 @@ export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode);
   const baseMap = useStore(baseMapStore, state => state.on && state.field !== null);
+  const together = useStore(togetherStore, state => state.editors.some(({ presence }) => presence?.pointer_m));
   const repairShown = useStore(repairStore, state => state.shown !== null);
   const inHeadset = useStore(viewStore, state => state.inHeadset);
+  const onMarker = useStore(markerViewStore, state => state.on);
+  const bare = useStore(markerViewStore, ({ on, objects }) => on && !objects);
+  const markerSeen = useStore(markerViewStore, state => state.seen);
   const wish = useStore(viewStore, state => state.headsetWish);
   const physics = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped");
   const playing = useStore(playStore, state => state.playing) || physics;
@@ -102,7 +113,18 @@ export function Viewport() {
 
   return (
     <div className="viewport">
-      <div className="canvas" style={{ position: "absolute", inset: 0 }} role="img" aria-label={WORDS.viewport}>
+      {onMarker && (
+        <Suspense fallback={null}>
+          <MarkerPicture />
+        </Suspense>
+      )}
+      <div
+        className="canvas"
+        style={{ position: "absolute", inset: 0 }}
+        data-faint={onMarker && !markerSeen}
+        role="img"
+        aria-label={WORDS.viewport}
+      >
         <Canvas
           frameloop="demand"
           dpr={[1, 2]}
@@ -117,9 +139,14 @@ export function Viewport() {
           <RenderLoop meter={meter} picture={picture} cube={cube} close={close} />
           <Probe meter={meter} close={close} />
           <Thumbnail />
+          {onMarker && (
+            <Suspense fallback={null}>
+              <MarkerCamera />
+            </Suspense>
+          )}
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
-            {document && <RunContext theme={colours} document={document} sky={!inHeadset} />}
+            {document && <RunContext theme={colours} document={document} sky={!inHeadset} room={!onMarker} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
             {stations > 0 && (
               <Suspense fallback={null}>
@@ -132,12 +159,17 @@ export function Viewport() {
                 <RepairGhost document={document} robot={robot} tool={tool} />
               </Suspense>
             )}
+            {together && (
+              <Suspense fallback={null}>
+                <EditorPointers />
+              </Suspense>
+            )}
             {baseMap && (
               <Suspense fallback={null}>
                 <BaseMapView />
               </Suspense>
             )}
-            {document?.objects.map(object => (
+            {(bare ? undefined : document)?.objects.map(object => (
               <ObjectView key={object.id} object={object} theme={colours} glass={inHeadset} />
             ))}
             {document && <WatchedView document={document} theme={colours} />}
@@ -192,8 +224,8 @@ export function Viewport() {
           )}
         </Canvas>
       </div>
-      <ViewCube cube={cube} wishes={wishes} />
-      {pictured && robot && !inHeadset && mode !== "cell" && (
+      {!onMarker && <ViewCube cube={cube} wishes={wishes} />}
+      {pictured && robot && !inHeadset && !onMarker && mode !== "cell" && (
         <Picture picture={picture} onHide={() => setPictured(false)} />
       )}
       <div

@@ -79,6 +79,7 @@ export const teachWords = {
   },
   undo: {
     errors: "Gemessene Fehler setzen",
+    registration: "Roboter einmessen",
     demonstration: "Demonstration hinzufügen",
     recordPoint: "Punkt aufnehmen",
     recordPath: "Bahn aufnehmen",

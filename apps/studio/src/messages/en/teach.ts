@@ -75,6 +75,7 @@ export const teachWords = {
   },
   undo: {
     errors: "Set measured errors",
+    registration: "Register the robot",
     demonstration: "Add demonstration",
     recordPoint: "Record point",
     recordPath: "Record path",

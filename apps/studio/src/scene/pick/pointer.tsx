@@ -11,6 +11,7 @@ import { buildStore } from "../../stores/build.ts";
 import { pickToMeasure } from "../../stores/measure.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { playStore } from "../../stores/play.ts";
+import { pointAt } from "../../stores/together.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -156,6 +157,7 @@ export function Pointer({
       if (event.pointerType === "touch") leave();
     });
     const leave = (): void => {
+      pointAt(null);
       interaction.inside = false;
       interaction.hoveredPart = null;
       if (selectionStore.getState().hovered) hover(null);
@@ -217,6 +219,7 @@ export function Pointer({
     }
     const found = part !== null ? null : nearestThing(work.caster, root);
     const thing: Thing | null = found?.holder.userData.thing ?? null;
+    pointAt(found ? toWorld(found.hit.point, [0, 0, 0]) : null);
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
     const { hovered } = selectionStore.getState();
     if (JSON.stringify(hovered) !== JSON.stringify(thing)) hover(thing);

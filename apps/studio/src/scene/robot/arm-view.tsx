@@ -23,7 +23,7 @@ interface Props {
    */
   readonly prefix?: string;
   /** Drawn see-through in that colour, without shadow: where the robot will be. */
-  readonly ghost?: string;
+  readonly ghost?: string | undefined;
 }
 
 /** A ghost is nothing to be clicked. */

@@ -31,7 +31,7 @@ const DOTS: Readonly<Record<StepVerdict, string>> = {
   unknown: "#8b969c",
 };
 /** Beside the robot, turned to the person, its upper edge at the height of the eyes [m]. */
-const STANDS_AT = [1.08, 1.5, -1.12] as const;
+export const STANDS_AT = [0.95, 1.5, -0.97] as const;
 const TURNED_RAD = -0.76;
 const POST_M = 1.5;
 
@@ -46,6 +46,7 @@ export function StepStand({ keys }: { readonly keys: KeyAim }) {
         turn_rad={TURNED_RAD}
         width={WIDTH_PX}
         keys={keys}
+        upright
         title={<Title />}
         above={<Post />}
       >
