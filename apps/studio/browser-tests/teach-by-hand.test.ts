@@ -74,9 +74,13 @@ test("N-38 a pendant key moves while it is held, along its own axis only, and st
   expect(problems).toEqual([]);
 });
 
-test("N-47 N-48 N-49 a contact sounds once and paints what is touched, and both end when the tool leaves", async () => {
+test("N-47 N-48 N-49 X-53 in the cell with table and carton a contact sounds once and paints what is touched, and both end when the tool leaves", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
+  const ids = await page.evaluate(() =>
+    window.twincell.stores.cellStore.getState().document!.objects.map(({ id }) => id),
+  );
+  expect(ids).toEqual(expect.arrayContaining(["table", "carton"]));
   await stand(page, [0.6, 0, 0.56]);
   expect(await page.evaluate(() => [...window.twincell.live.touching()])).toEqual([]);
   await hold(page, "Jog Z down", () => window.twincell.live.touching().has("carton"));

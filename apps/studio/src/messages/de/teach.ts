@@ -4,6 +4,7 @@ import type { teachWords as english } from "../en/teach.ts";
 /** German: jogging, steps, traces, demonstrations, saved poses, and what undo is called. */
 export const teachWords = {
   step: {
+    "asBelt(name, speed)": "So schnell wie {name}: {speed} mm/s",
     "point(n: number)": "Punkt {n}",
     "wait(s: number)": "{s} s warten",
     open: "Greifer öffnen",

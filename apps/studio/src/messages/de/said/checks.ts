@@ -120,6 +120,12 @@ export const saidByChecks: Sentences = {
     "Am meisten verlangt wird von Achse {n}: {value} von {limit} N bei {time} s.",
   "The torques of {robot} cannot be judged: what its joints can give is not published.":
     "Die Drehmomente des {robot} lassen sich nicht beurteilen: Was seine Achsen leisten, ist nicht veröffentlicht.",
+  "The {what} weighs {load} kg; the {robot} lifts at most {limit} kg.":
+    "{what}: {load} kg; der {robot} hebt höchstens {limit} kg.",
+  "The {what} weighs {load} kg; above {limit} kg the {robot} moves at reduced speed.":
+    "{what}: {load} kg; über {limit} kg bewegt sich der {robot} langsamer.",
+  "tool alone": "Werkzeug allein",
+  "tool with “{part}”": "Werkzeug mit „{part}“",
   "The load is {load} kg; the {robot} lifts at most {limit} kg.":
     "Die Last ist {load} kg; der {robot} hebt höchstens {limit} kg.",
   "The load is {load} kg; above {limit} kg the {robot} moves at reduced speed.":
