@@ -58,8 +58,8 @@ export const cellWords = {
     position: "Position",
     removeFrame: "Frame entfernen",
     "frameUsed(n: number)":
-      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm " +
-      "aus; zuerst diese ändern.",
+      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm aus; " +
+      "zuerst diese ändern.",
     attachedTo: "Befestigt an",
     attachedToCell: "Der Zelle",
     size: "Größe",
