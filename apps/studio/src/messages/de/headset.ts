@@ -105,7 +105,7 @@ export const headset = {
   keypad: "Zahlen",
   physics: "Physik",
   numbers: { x: "X mm", y: "Y mm", z: "Z mm", speed: "Tempo %" },
-  jog: { "less(axis)": "− {axis}", "more(axis)": "{axis} +" },
+  jog: { "less(axis)": "{axis} -", "more(axis)": "{axis} +" },
   set: "Setzen",
   close: "Schließen",
   "numberOutside(least, most)": "Eine Zahl von {least} bis {most} eingeben.",

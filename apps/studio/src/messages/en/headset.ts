@@ -94,7 +94,8 @@ export const headset = {
   "notStarted(problem)": "The headset was not started: {problem}",
   ended: "The headset ended the session. The robot stands still and nothing is lost; press Headset to go on.",
   endedHeld:
-    "The headset ended the session while the tool was held: it was let go and stands where it was. Press Headset to go on.",
+    "The headset ended the session while the tool was held: it was let go and stands where it was. " +
+    "Press Headset to go on.",
   take: { grip: "Take: grip", trigger: "Take: trigger" },
   viewBy: { both: "Turn: both", left: "Turn: left", right: "Turn: right" },
   gripperBy: { a: "Grip: A, X", b: "Grip: B, Y", none: "Grip: none" },
@@ -102,7 +103,7 @@ export const headset = {
   keypad: "Keypad",
   physics: "Physics",
   numbers: { x: "X mm", y: "Y mm", z: "Z mm", speed: "Speed %" },
-  jog: { "less(axis)": "− {axis}", "more(axis)": "{axis} +" },
+  jog: { "less(axis)": "{axis} -", "more(axis)": "{axis} +" },
   set: "Set",
   close: "Close",
   "numberOutside(least, most)": "Type a number from {least} to {most}.",

@@ -28,6 +28,8 @@ const AXIS = { x: 0, y: 1, z: 2 } as const;
 export const KEYPAD_AT = [-0.72, 1.42, -0.72] as const;
 const TURN_RAD = 0.78;
 const WIDTH_PX = 470;
+/** The typeface of the room has the letters of ASCII and the German ones, and no other signs. */
+const KEY_WORDS: Readonly<Partial<Record<KeypadKey, string>>> & { readonly "⌫": string } = { "±": "+/-", "⌫": "<" };
 /** No cell is larger [mm]; the speed of playing in percent. */
 const RANGES: Readonly<Record<Field, readonly [number, number]>> = {
   x: [-20_000, 20_000],
@@ -83,18 +85,18 @@ export function KeypadPanel({ keys }: { readonly keys: KeyAim }) {
       )}
       <Container height={70} alignItems="center" justifyContent="flex-end" paddingX={16} backgroundColor="#0c0f11">
         <Text id="number-typed" fontSize={44} fontWeight="bold" color="#f2f6f8">
-          {text === "" ? "–" : text.replace("-", "−")}
+          {text === "" ? "_" : text}
         </Text>
       </Container>
       {[0, 3, 6, 9].map(from => (
         <Row key={from}>
           {KEYPAD.slice(from, from + 3).map(key => (
-            <Key key={key} id={`digit-${key}`} words={key} height={68} onPress={press(key)} />
+            <Key key={key} id={`digit-${key}`} words={KEY_WORDS[key] ?? key} height={68} onPress={press(key)} />
           ))}
         </Row>
       ))}
       <Row>
-        <Key id="digit-back" words="⌫" height={68} onPress={press("⌫")} />
+        <Key id="digit-back" words={KEY_WORDS["⌫"]} height={68} onPress={press("⌫")} />
         <Key
           id="number-set"
           words={SAID.set}

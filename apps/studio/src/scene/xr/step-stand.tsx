@@ -161,7 +161,7 @@ function StepRow({
       <Container width={18} height={18} borderRadius={5} flexShrink={0} backgroundColor={color} />
       <Container flexGrow={1} flexBasis={0} overflow="hidden">
         <Text fontSize={WORDS_PX} color="#f2f6f8" fontWeight={chosen ? "bold" : "normal"}>
-          {says.length > 17 ? `${says.slice(0, 16)}…` : says}
+          {says.length > 17 ? `${says.slice(0, 15)}..` : says}
         </Text>
       </Container>
       <Text fontSize={WORDS_PX} color={QUIET}>

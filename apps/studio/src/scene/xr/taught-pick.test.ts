@@ -34,6 +34,8 @@ const FROM: readonly [number, number] = [0.65, -0.2];
 const TO: readonly [number, number] = [0.65, 0.25];
 const LIFT_M = 0.15;
 const ATTEMPTS = 20;
+/** Forty runs of physics on a machine that does other things as well. */
+const SLOWLY = { timeout: 180_000 } as const;
 /** What a hand that aims by eye misses by, in each direction [m]. */
 const AIMS_WITHIN_M = 0.0015;
 /** Hands of a headset tremble in every frame, measured to this [m]. */
@@ -178,11 +180,11 @@ function attempt(bare: boolean, seed: number): PickRow {
   return { ...which, verdict, off_m, highest_m, seconds, sentence };
 }
 
-describe("X-54 the pick and place of row X-34, taught with the hands of a headset, 20 attempts each", () => {
+describe("X-54 the pick and place of the table of the command line, taught with the hands of a headset, 20 attempts each", () => {
   test.each([
     ["controllers", false],
     ["bare hands", true],
-  ] as const)("by %s: every box is lifted by 150 mm and put down within 10 mm", (_name, bare) => {
+  ] as const)("by %s: every box is lifted by 150 mm and put down within 10 mm", SLOWLY, (_name, bare) => {
     const table = Array.from({ length: ATTEMPTS }, (_, i) => attempt(bare, 100 * Number(bare) + i));
     expect(table.map(({ verdict, sentence }) => `${verdict}${sentence}`)).toEqual(
       Array.from({ length: ATTEMPTS }, () => "placed"),
