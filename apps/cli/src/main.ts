@@ -5,7 +5,8 @@ import { join } from "node:path";
 
 /**
  * What was compiled once is read from the disk the next time: a server is back after less than half the time. It lies
- * where programs keep what they can make anew; without such a place, or with NODE_DISABLE_COMPILE_CACHE, all is compiled.
+ * where programs keep what they can make anew; without such a place, or with NODE_DISABLE_COMPILE_CACHE, it is compiled
+ * each time.
  */
 process.env["NODE_COMPILE_CACHE"] ??= join(
   process.env["XDG_CACHE_HOME"] ?? join(homedir(), ".cache"),

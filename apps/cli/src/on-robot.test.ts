@@ -265,10 +265,12 @@ describe("a robot of a server", () => {
     expect(near(a, b)).toBeLessThan(1e-4);
   }, 120_000);
 
-  test("run --on sends a checked program, refuses a red one with the finding, runs a vendor's text", async () => {
+  test("run --on sends a checked program, refuses a red one with the finding and a breakpoint in a text, runs a vendor's text", async () => {
     const arm = ["--on", at[1]!, "--station", "arm"];
     const good = programFile("good", step("a", turned(0.1)), step("b", turned(0)));
     expect(outcomeOf(await twincell("run", good, ...arm, "--as-text"))).toEqual(DONE);
+    const held = await twincell("run", good, ...arm, "--as-text", "--breakpoint", "b");
+    expect([held.code, outcomeOf(held)]).toMatchObject([1, { kind: "refused", why: { code: "production.text" } }]);
     const red = programFile("red", step("a", [...turned(0).slice(0, 5), 99]));
     const refused = await twincell("run", red, ...arm);
     expect([refused.code, outcomeOf(refused)]).toMatchObject([1, { kind: "refused", why: { code: "limits.joint" } }]);
@@ -310,6 +312,8 @@ test("wrong use is named", async () => {
     [["watch", "--at", "127.0.0.1", "--driver", "acme"], 'There is no driver "acme"'],
     [["connect", "arm", "--at", "127.0.0.1:1"], "--driver is missing"],
     [["connect", "--at", "127.0.0.1"], "--driver is missing"],
+    [["run", "a.json", "--on", "h", "--cycles", "0"], "--cycles wants a whole number of 1 or more"],
+    [["run", "a.json", "--on", "h", "--paced", "--step"], "--paced sends one program step by step"],
   ] as const) {
     const { code, err } = await twincell(...args);
     expect([args.join(" "), code, err]).toEqual([args.join(" "), 2, expect.stringContaining(sentence) as string]);

@@ -1,7 +1,9 @@
+import { X509Certificate } from "node:crypto";
 import type { IncomingMessage, RequestListener, ServerResponse } from "node:http";
 import { askForCode, clientOf, type AccessCode } from "./access.ts";
 import { isApiPath } from "./api/calls.ts";
 import type { apiListener } from "./api/listener.ts";
+import { AUTHORITY_PATH, TRUST_PATH, trustPage } from "./trust-page.ts";
 import type { CellLinks } from "./people/links.ts";
 import type { staticFiles } from "./static-files.ts";
 
@@ -42,6 +44,8 @@ export const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): 
 
 /**
  * Hands out files of the built studio to whoever asked for one of these hosts and knows the code, where there is one.
+ *
+ * @param authority that devices may trust, as PEM; it has a page of its own
  */
 export function studioListener(
   files: ReturnType<typeof staticFiles>,
@@ -50,7 +54,9 @@ export function studioListener(
   api: ReturnType<typeof apiListener> | null,
   say: (sentence: string) => void,
   links: CellLinks | null = null,
+  authority?: string,
 ): RequestListener {
+  const fingerprint = authority === undefined ? "" : new X509Certificate(authority).fingerprint256;
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
       if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
@@ -112,6 +118,15 @@ export function studioListener(
         say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) });
         return;
       }
+    }
+    if (authority !== undefined && path === AUTHORITY_PATH) {
+      say(200, authority, { "content-type": "application/x-x509-ca-cert" });
+      return;
+    }
+    if (authority !== undefined && (path === TRUST_PATH || `${path}/` === TRUST_PATH)) {
+      const page = trustPage(request.headers["accept-language"] ?? "", fingerprint);
+      say(200, page, { "content-type": "text/html; charset=utf-8" });
+      return;
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
     response.writeHead(found.status, {

@@ -1,6 +1,8 @@
+import { X509Certificate } from "node:crypto";
 import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
+import { hostname } from "node:os";
 import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
@@ -11,7 +13,8 @@ import { createJudge } from "./api/judge.ts";
 import { apiListener } from "./api/listener.ts";
 import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
 import { streamRoute } from "./api/stream.ts";
-import { certificate, lanAddresses } from "./lan.ts";
+import { certificate } from "./authority.ts";
+import { lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { editingRoute } from "./editing/route.ts";
@@ -76,6 +79,8 @@ export interface Served {
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** SHA-256 of the authority that a device may trust (see /trust/); null without `lan`. */
+  readonly fingerprint: string | null;
   /** Where the first admin chooses a name and a password; null when there is one, or nobody signs in by name. */
   readonly setUp: string | null;
   /** Where each standard that was asked for is spoken. */
@@ -127,6 +132,9 @@ export async function serve(options: ServeOptions): Promise<Served> {
     scheduler: nodeScheduler,
     onTrouble: say,
   });
+  const written = (who: string, action: string, detail: string, done: boolean): void => {
+    audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" });
+  };
   const judge = createJudge();
   const links = cellLinks(tokens);
   const linkOf = (cookies: string | undefined): string | null => links.of(cookies)?.cell ?? null;
@@ -158,8 +166,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
-        audit: (who, action, detail, done) =>
-          audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" }),
+        audit: written,
       },
     }),
     headers: HEADERS,
@@ -169,9 +176,17 @@ export async function serve(options: ServeOptions): Promise<Served> {
     closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say, links);
-  const own = options.lan ? await certificate(options.data, addresses) : null;
-  const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
+  const own = options.lan ? await certificate(options.data, addresses, hostname()) : null;
+  const listener = studioListener(
+    siteFiles(options.studio, options.docs),
+    hosts,
+    access,
+    api,
+    say,
+    links,
+    own?.authority,
+  );
+  const server = own ? createHttps({ key: own.key, cert: own.cert }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
   const logging = logRobots(states, log);
   const end = (): void => {
@@ -238,7 +253,13 @@ export async function serve(options: ServeOptions): Promise<Served> {
       connectionRoute(stations, gate.nameOf, gate.roleOf),
       streamRoute(stations, nodeScheduler),
       videoRoute(relay),
-      editingRoute(shared, gate, nodeScheduler),
+      editingRoute(shared, gate, nodeScheduler, (who, action, detail, done) => {
+        try {
+          written(who, action, detail, done);
+        } catch (problem) {
+          say(`The audit log cannot be written: ${problem instanceof Error ? problem.message : String(problem)}.`);
+        }
+      }),
     ],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
@@ -279,6 +300,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
+    fingerprint: own ? new X509Certificate(own.authority).fingerprint256 : null,
     standards: standards.addresses,
     close: () => (closing ??= close()),
   };

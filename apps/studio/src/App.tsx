@@ -2,6 +2,7 @@ import { Tooltip } from "radix-ui";
 import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Arrange } from "./features/build/Arrange.tsx";
+import { MateCard } from "./features/build/MateCard.tsx";
 import { MeasureCard } from "./features/build/MeasureCard.tsx";
 import { ToolBar } from "./features/build/ToolBar.tsx";
 import { Check } from "./features/check/Check.tsx";
@@ -17,6 +18,7 @@ import { Notices } from "./features/notices/Notices.tsx";
 import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
 import { Physics } from "./features/physics/Physics.tsx";
+import { Process } from "./features/process/Process.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
@@ -30,6 +32,7 @@ import { SignIn } from "./features/people/SignIn.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
+import { buildStore } from "./stores/build.ts";
 import { cellStore } from "./stores/cell.ts";
 import { textOf, theProgram } from "./stores/document.ts";
 import { lessonStore } from "./stores/lesson.ts";
@@ -52,6 +55,7 @@ const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.ts
 const Start = lazy(() => import("./features/start/Start.tsx"));
 const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
 const GloveDialog = lazy(() => import("./features/glove/GloveDialog.tsx"));
+const Rig = lazy(() => import("./features/build/Rig.tsx").then(part => ({ default: part.Rig })));
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
@@ -139,6 +143,7 @@ export function App() {
             <>
               <ToolBar />
               <MeasureCard />
+              <MateCard />
             </>
           )}
           {text !== null && teaching && !phone && (
@@ -251,12 +256,19 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  const rigging = useStore(buildStore, state => state.tool === "rig");
+  const nothing = useStore(selectionStore, state => state.selected === null);
   const first = useStore(selectionStore, ({ selected }) => isShownFirst(selected));
   switch (mode) {
     case "cell":
-      return (
+      return rigging ? (
+        <Suspense>
+          <Rig />
+        </Suspense>
+      ) : (
         <>
           <Inspector />
+          {nothing && <Process />}
           <Arrange />
         </>
       );

@@ -83,6 +83,8 @@ export function boot(): void {
     )
     .then(() => openKept(browserStore, library))
     .then(() => joinFromAddress())
+    // The cell of this browser is open all the same.
+    .catch((problem: unknown) => notify("bad", problem instanceof Error ? problem.message : String(problem)))
     .then(() => import("./runtime/robot/cell-control.ts"))
     .then(({ startCellControl }) => {
       startCellControl();

@@ -19,6 +19,8 @@ export interface ToolRecord {
   readonly flangeFromTcp: Pose<"flange", "tcp">;
   /** In the flange frame. */
   readonly shape?: Shape;
+  /** What it weighs; that of its part of the library, or of its fingers, when left out. */
+  readonly mass_kg?: number;
   /** Fingers that close around the TCP, for the simulation with physics. */
   readonly gripper?: Omit<Gripper, "name" | "flangeFromGrip">;
 }

@@ -178,6 +178,7 @@ export const cellSchema = z.strictObject({
       name: text,
       flangeFromTcp: poseOf<"flange", "tcp">(),
       shape: z.exactOptional(shape),
+      mass_kg: z.exactOptional(z.number().positive()),
       gripper: z.exactOptional(gripper),
     }),
   ),

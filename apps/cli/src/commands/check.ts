@@ -160,9 +160,11 @@ async function checkText(options: Given, chosen: RobotToRun | undefined, margin_
 function verified(answer: ProgramCertificateVerdict): string {
   switch (answer.kind) {
     case "confirmed":
-      return `All ${answer.segments} motions are proven clear a second time, in ${answer.looks} looks.`;
+      return `All ${answer.segments} motions${answer.corners > 0 ? ` and the ${answer.corners} corners passed without a stop` : ""} are proven clear a second time, in ${answer.looks} looks.`;
     case "missing":
-      return `The motion of step ${answer.step} at ${answer.start_s.toFixed(2)} s has no certificate.`;
+      return answer.of === "corner"
+        ? `The corner at the end of step ${answer.step}, at ${answer.start_s.toFixed(2)} s, has no certificate: it is not clear, or the arm does not reach all of it.`
+        : `The motion of step ${answer.step} at ${answer.start_s.toFixed(2)} s has no certificate.`;
     case "refuted":
       return `The certificate does not hold for step ${answer.step}: ${answer.a} and ${answer.b} at ${answer.at_s.toFixed(2)} s (${answer.reason}).`;
   }

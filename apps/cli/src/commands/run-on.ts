@@ -8,6 +8,7 @@ import { readProgram } from "../io/program.ts";
 import { projectFault, textProject } from "../io/text-project.ts";
 import { UseFault } from "../io/usage.ts";
 import { codesOf } from "../io/one-step.ts";
+import { cyclesOf, isProduction, produceOn } from "./produce-on.ts";
 
 /** A taught program, or a vendor's text executed to its steps, run on a robot. */
 export async function runOn(options: Given): Promise<number> {
@@ -15,15 +16,33 @@ export async function runOn(options: Given): Promise<number> {
   const isPaced = options.flag("paced") || options.number("gap") !== undefined;
   if (!(gap_s >= 0)) throw new UseFault(`--gap wants 0 s or more, not ${gap_s}.`);
   if (isPaced && options.flag("as-text")) throw new UseFault("--paced sends steps one by one.", "Leave --as-text out.");
+  if (isPaced && isProduction(options))
+    throw new UseFault(
+      "--paced sends one program step by step.",
+      "Leave --cycles, --step, --breakpoint and --reload out.",
+    );
+  cyclesOf(options);
   const [path] = options.positionals;
   if (path === undefined) throw new UseFault("FILE is missing.", "Give a program (.json) or a vendor's program text.");
   const taught = /\.json$/i.test(path) && options.positionals.length === 1;
-  return commandAt(options, async ({ info, robot }, ask) => {
+  return commandAt(options, async (at, ask) => {
+    const { info, robot, client } = at;
     const station = info.id;
-    const program = taught
-      ? (await readProgram(path, { robot, solids: () => [] })).program
-      : await executed(options, robot);
+    const taughtIn = async (file: string): Promise<Program> =>
+      (await readProgram(file, { robot, solids: () => [] })).program;
+    const program = taught ? await taughtIn(path) : await executed(options, robot);
     const despite = codesOf(options);
+    if (isProduction(options)) {
+      const again = taught ? taughtIn : (): Promise<Program> => executed(options, robot);
+      return produceOn(
+        options,
+        at,
+        ask,
+        () => client.stop(station),
+        program,
+        file => (/\.json$/i.test(file) ? taughtIn(file) : again(file)),
+      );
+    }
     if (!isPaced) return ask({ type: "run", station, program, asText: options.flag("as-text"), despite });
     // Steps go out one by one: what the connection cannot be told is known before the first.
     const taken = await ask({ type: "takes", station, program });

@@ -9,6 +9,7 @@ import { robotOf } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 import { projectFault, textProject, type TextProject } from "../io/text-project.ts";
 import { reportSkipped } from "./parse.ts";
+import { PRODUCTION_HELP, PRODUCTION_OPTIONS } from "./produce-on.ts";
 import { runOn } from "./run-on.ts";
 
 /** A text that never ends is cut here. */
@@ -20,6 +21,7 @@ export const runCommand: Command = {
   usage: `twincell run FILE… --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
                 [--leave-out-missing]
        twincell run FILE… --on HOST[:PORT] [--as-text] [--paced [--gap S]] [--despite CODES]
+                [--cycles N|forever] [--breakpoint ID]… [--step] [--reload]
 
 FILE is a program text, several of one program, a folder or ZIP of them, or a cell whose selected program is a text; a file's siblings
 (program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr. A text that calls a program that is in none of the files is refused with file, line
@@ -32,10 +34,12 @@ in its cell first. What makes the check red keeps it from being sent.
   --as-text         as a program of the controller's own language; its steps otherwise
   --paced           step by step: one command, its end, --gap S (default ${COMMAND_GAP_S}), the next
   --despite CODES   red findings that you have seen and send it in spite of; the guard stops it before contact all the same
+${PRODUCTION_HELP}
 ${COMMANDER_HELP}`,
   async run(args) {
     const options = given(args, {
       ...COMMANDER_OPTIONS,
+      ...PRODUCTION_OPTIONS,
       on: { type: "string" },
       "as-text": { type: "boolean" },
       paced: { type: "boolean" },

@@ -7,7 +7,7 @@ import { createEditingSession, type EditingEvent, type EditingSession } from "@t
 import { readRoomMessage, writeEditing } from "@twincell/protocol";
 import { afterEach, expect, test, vi } from "vitest";
 import { WebSocket } from "ws";
-import { serve, type Served } from "../index.ts";
+import { auditFile, readAudit, serve, type Served } from "../index.ts";
 
 const studio = mkdtempSync(join(tmpdir(), "twincell-studio-"));
 writeFileSync(join(studio, "index.html"), "<title>studio</title>");
@@ -221,6 +221,11 @@ test("the server asks for the role at every message: a viewer writes comments in
   await until(() => pat.events.some(({ type }) => type === "refused"));
   await until(() => pat.session.document?.name === "Pat's");
   await until(() => onDisk(data)?.name === "Pat's");
+  const { lines } = readAudit(readFileSync(auditFile(data), "utf8"));
+  const edits = lines
+    .filter(({ action }) => action === "edits the cell")
+    .map(({ who, outcome }) => `${who} ${outcome}`);
+  expect(edits.toSorted()).toEqual(["Pat done", "Pat refused", "Vic done", "Vic refused"]);
 });
 
 test("a read-only link shows one cell as it is edited to people without an account, and nothing else: no write, no robot, no other cell; taken back, it ends within seconds", async () => {

@@ -21,6 +21,7 @@ export function editingRoute(
   shared: SharedCells,
   gate: Pick<Gate, "nameOf" | "roleOf" | "byLink">,
   scheduler: Pick<Scheduler, "now_s">,
+  audit: (who: string, action: string, detail: string, done: boolean) => void = () => undefined,
 ): Route {
   let count = 0;
   let inside = 0;
@@ -37,7 +38,7 @@ export function editingRoute(
       inside++;
       const who = gate.byLink(request) ? `guest ${++count}` : (gate.nameOf(request) ?? `studio ${++count}`);
       const right = rightOf(gate, request, cell, searchParams.get("look") !== null);
-      const editor = inRoom(shared, socket, { cell, who, right });
+      const editor = inRoom(shared, socket, { cell, who, right, audit });
       const rate = allowance(scheduler);
       socket.on("message", (data, binary) => {
         if (binary || !rate()) socket.close(1008, binary ? "Messages are texts." : "Too many messages.");
@@ -74,8 +75,9 @@ interface Entering {
   readonly cell: string;
   readonly who: string;
   readonly right: () => EditingRight;
+  readonly audit: (who: string, action: string, detail: string, done: boolean) => void;
 }
-function inRoom(shared: SharedCells, socket: WebSocket, { cell, who, right }: Entering) {
+function inRoom(shared: SharedCells, socket: WebSocket, { cell, who, right, audit }: Entering) {
   let open: OpenRoom | null = null;
   let editor: RoomEditor | null = null;
   let left = false;
@@ -109,7 +111,14 @@ function inRoom(shared: SharedCells, socket: WebSocket, { cell, who, right }: En
           open.leave();
           return;
         }
+        if (right() !== "look") audit(who, "edits the cell", cell, true);
+        // One line of a connection: the log is not filled by whoever tries again and again.
+        let told = false;
         editor = open.room.join(who, right, message => {
+          if (message.type === "refused" && !told) {
+            told = true;
+            audit(who, "edits the cell", `${cell}: ${message.why.sentence}`, false);
+          }
           send(writeEditing(message));
         });
         for (const text of early.splice(0)) hear(text);

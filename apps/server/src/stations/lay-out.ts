@@ -10,7 +10,7 @@ const failed = (problem: string): PreparedJob => {
     sentence: `The program could not be planned: ${problem}`,
     hint: "Send it again; if it stays so, start the server anew.",
   };
-  return { plan: null, stuck: why, findings: [], bad: [], carried: [], files: null, unwritten: why };
+  return { plan: null, stuck: why, findings: [], bad: [], carried: [], corners: [], files: null, unwritten: why };
 };
 
 /**

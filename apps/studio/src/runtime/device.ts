@@ -2,6 +2,7 @@ import { stationOf, stationStore } from "../stores/stations.ts";
 import { connectionStore } from "../stores/connection.ts";
 import { headsetStore } from "../stores/headset.ts";
 import { offlineStore } from "../stores/offline.ts";
+import { lookForServer } from "./robot/station-hosts.ts";
 
 /** What this device and page can do; "missing" has a sentence of what to do about it. */
 export type DeviceFinding = "ok" | "missing" | "unknown";
@@ -88,6 +89,8 @@ export function measureLatency(tell: (latency: Latency) => void): () => void {
   };
   let timer: ReturnType<typeof setTimeout> | undefined;
   for (const name of EVENTS) window.addEventListener(name, hear, { capture: true, passive: true });
+  // Nothing asks for the server before a robot is wanted: here it is what is looked at.
+  lookForServer();
   void ask();
   const telling = setInterval(() => {
     const { station } = connectionStore.getState();

@@ -30,6 +30,7 @@ import { PathView } from "./path/path-view.tsx";
 import { PastView } from "./robot/past-view.tsx";
 import { DemonstrationView } from "./path/demonstration-view.tsx";
 import { OverlayView } from "./path/overlay-view.tsx";
+import { WorkPieceView } from "./path/workpiece-view.tsx";
 import { TcpTrace } from "./path/tcp-trace.tsx";
 import { Waypoints } from "./path/waypoints.tsx";
 import { EdgeView } from "./pick/edge-view.tsx";
@@ -58,6 +59,7 @@ const BaseMapView = lazy(() => import("./base-map-view.tsx").then(part => ({ def
 const RepairGhost = lazy(() => import("./robot/repair-ghost.tsx").then(part => ({ default: part.RepairGhost })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
 const Display = lazy(() => import("./gizmo/display.tsx"));
+const SurfaceView = lazy(() => import("./gizmo/surface-view.tsx"));
 const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const MarkerPicture = lazy(() => import("./marker/marker-picture.tsx"));
@@ -83,6 +85,7 @@ export function Viewport() {
   const stations = useStore(stationStore, state => state.stations.length);
   const otherwise = useStore(buildStore, state => state.display !== "smooth" || state.section_m !== null);
   const measuring = useStore(buildStore, state => state.tool === "measure");
+  const surfaces = useStore(buildStore, state => state.tool === "mate" || state.tool === "rig");
   const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
   // A headset shows a bright room, whatever the page looks like.
@@ -175,6 +178,7 @@ export function Viewport() {
             {document && <WatchedView document={document} theme={colours} />}
             <PathView theme={colours} />
             {document && <Waypoints document={document} />}
+            {document && <WorkPieceView document={document} theme={colours} />}
             <TcpTrace theme={colours} />
             <PastView />
             <OverlayView theme={colours} />
@@ -192,6 +196,11 @@ export function Viewport() {
             {document && mode === "cell" && anything && !inHeadset && (
               <Suspense fallback={null}>
                 <Gizmo world={world} document={document} interaction={interaction} label={label} />
+              </Suspense>
+            )}
+            {document && mode === "cell" && surfaces && (
+              <Suspense fallback={null}>
+                <SurfaceView document={document} theme={colours} />
               </Suspense>
             )}
             {mode === "cell" && measuring && (

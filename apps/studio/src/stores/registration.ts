@@ -61,6 +61,7 @@ export const removeRegistrationPoint = (id: number): void =>
 
 /** Rounded up to what the field of the registration error shows [m]. */
 const SHOWN_M = 1e-4;
+export const keptError = (bound_m: number): number => Math.ceil(bound_m / SHOWN_M) * SHOWN_M;
 /**
  * Puts the robot where it was found, and keeps what is not known of that in the cell: the guard and every check add it
  * to what they keep clear (row T-64).
@@ -71,6 +72,6 @@ export function applyRegistration(worldFromBase: Parameters<typeof inverse>[0], 
   commit(words.undo.registration, document => ({
     ...document,
     robot: { ...document.robot, worldFromBase: pose(worldFromBase.position, worldFromBase.quaternion) },
-    errors: { ...document.errors, registration_m: Math.ceil(bound_m / SHOWN_M) * SHOWN_M },
+    errors: { ...document.errors, registration_m: keptError(bound_m) },
   }));
 }

@@ -1,6 +1,7 @@
 import {
   samplePlan,
   type CarriedPart,
+  type CornerArea,
   type CommandOutcome,
   type EmittedFile,
   type Finding,
@@ -65,6 +66,8 @@ export interface RobotJob {
   readonly bad?: readonly Finding[];
   /** The parts of the cell that it carries. */
   readonly carried?: readonly CarriedPart[];
+  /** What its controller may make of the corners it passes without a stop; the guard looks at all of each before it. */
+  readonly corners?: readonly CornerArea[];
 }
 
 /**
@@ -235,9 +238,9 @@ class ConnectionState {
   async follow(
     seat: Commander,
     steps: Iterable<Step>,
-    { program, plan, findings = [] }: RobotJob,
+    { program, plan, findings = [], corners = [] }: RobotJob,
   ): Promise<CommandOutcome> {
-    const following = plan ? new PlannedPath(plan, this.n) : null;
+    const following = plan ? new PlannedPath(plan, this.n, corners) : null;
     this.path = following;
     this.guard.follow(following);
     if (this.options.place && plan && following) {

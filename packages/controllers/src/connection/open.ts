@@ -354,6 +354,7 @@ class VendorConnectionState {
       findings: laid.findings,
       bad: laid.bad,
       carried: laid.carried,
+      corners: laid.corners,
       ...(laid.plan ? { plan: laid.plan } : {}),
       ...(laid.files ? { files: laid.files } : {}),
     };

@@ -9,6 +9,7 @@ import {
   withStops,
   type CarriedPart,
   type CellGeometry,
+  type CornerArea,
   type Dialect,
   type EmittedFile,
   type Finding,
@@ -46,6 +47,8 @@ export interface PreparedJob {
   readonly bad: readonly Finding[];
   /** The parts it carries, in the order they are taken. */
   readonly carried: readonly CarriedPart[];
+  /** What the controller may make of the corners that it passes without a stop. */
+  readonly corners: readonly CornerArea[];
   /** The text, with the postures of the plan; null when steps are sent. */
   readonly files: readonly EmittedFile[] | null;
   /** Why it cannot be written. */
@@ -84,7 +87,16 @@ export function prepareJob(question: JobQuestion): PreparedJob {
     },
     robot,
   );
-  const { verdict, bad, carried } = checkProgram(sent, robot, { ...from, cell: keptClearOf });
+  const {
+    verdict,
+    bad,
+    carried,
+    corners = [],
+  } = checkProgram(sent, robot, {
+    ...from,
+    cell: keptClearOf,
+    cornerAreas: true,
+  });
   const findings = verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(
     withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),
@@ -95,6 +107,7 @@ export function prepareJob(question: JobQuestion): PreparedJob {
     findings,
     bad,
     carried,
+    corners,
     plan: answer.kind === "planned" ? answer.plan : null,
     stuck:
       answer.kind === "planned"

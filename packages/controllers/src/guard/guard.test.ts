@@ -144,6 +144,54 @@ describe("guard", () => {
     }
   });
 
+  test("on a thread that comes 40 ms late to every look, again and again, its own lateness is no silence; a robot that is silent is found out all the same", async () => {
+    for (const cut of [false, true]) {
+      const scheduler = manualScheduler();
+      const real = createVirtualController({ robot, scheduler, start_rad: START });
+      const { link, controller } = cable(real, () => scheduler.now_s());
+      let heldUp = false;
+      const guard = createGuard({
+        controller,
+        scheduler: {
+          now_s: () => scheduler.now_s(),
+          every: (period_s, tick) =>
+            scheduler.every(period_s, () => {
+              if (!heldUp) tick();
+            }),
+        },
+        heartbeat_s: 0.08,
+        silence_s: 0.06,
+      });
+      const me = guard.seat("me");
+      me.acquireLease();
+      const command = me.robot.moveJoints(turned(0.1));
+      await scheduler.elapse(0.04);
+      me.alive();
+      for (let stall = 0; stall < 20; stall++) {
+        heldUp = true;
+        link.up = false;
+        await scheduler.elapse(0.059);
+        heldUp = false;
+        // The look comes first, then what was said meanwhile.
+        await scheduler.elapse(0.02);
+        if (!cut) {
+          link.up = true;
+          me.alive();
+        }
+        await scheduler.elapse(0.021);
+      }
+      expect(guard.state.link).toBe(cut ? "lost" : "up");
+      expect(link.stops_s.length > 0).toBe(cut);
+      if (!cut) {
+        const alive = scheduler.every(0.02, () => me.alive());
+        await scheduler.elapse(3);
+        expect(await command).toEqual({ kind: "done" });
+        alive();
+      }
+      guard.close();
+    }
+  });
+
   test("letting the enabling switch go stops, and nothing moves without it", async () => {
     const { scheduler, real, me } = bench();
     const command = me.robot.moveJoints(turned(1));

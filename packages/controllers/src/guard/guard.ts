@@ -44,7 +44,7 @@ const WATCH_S = 0.02;
  * listened, so it is no silence, and it is counted from there on. Nothing can be told to the robot either in that time;
  * its own watchdog counts on.
  */
-const HELD_UP_S = 0.05;
+const HELD_UP_S = 0.005;
 /** Where a robot would come to rest is looked at in steps no longer than this [rad], and in no more than so many. */
 const LOOK_RAD = 0.05;
 const MOST_LOOKS = 8;

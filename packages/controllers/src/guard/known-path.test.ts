@@ -1,6 +1,17 @@
-import { robotById, seededRandom, type JointSample } from "@twincell/core";
+import {
+  checkProgram,
+  emptyProgram,
+  linkSolids,
+  pose,
+  robotById,
+  samplePlan,
+  seededRandom,
+  type JointSample,
+  type MoveStep,
+  type Program,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { PathAhead, StraightPath } from "./known-path.ts";
+import { PathAhead, PlannedPath, StraightPath } from "./known-path.ts";
 import { StopForecast } from "./stop-forecast.ts";
 
 const robot = robotById("yaskawa_gp8")!;
@@ -45,6 +56,96 @@ describe("a path that is known", () => {
     expect(look.look(at(0.1), at(0.5), REACH_S, isSafe)).toBe("free");
     look.forget();
     expect(look.look(at(0.1), at(0.5), REACH_S, isSafe)).toBe("unsafe");
+  });
+});
+
+describe("T-63 a corner of a plan, which a controller rounds in a way of its own", () => {
+  const posture = (s: number, l: number): Float64Array => Float64Array.from(FROM, (_, i) => [s, l][i] ?? 0);
+  const step = (id: string, q: Float64Array, blend_m: number): MoveStep => ({
+    id,
+    type: "move",
+    path: "ptp",
+    target: { q: [...q] },
+    speed: { ratio: 0.3 },
+    blend_m,
+  });
+  const CORNER = 0.8;
+  const program: Program = {
+    ...emptyProgram(robot.id),
+    steps: [step("a", posture(CORNER, 0), 0.3), step("b", posture(CORNER, 0.8), 0)],
+  };
+  const cell = { worldFromBase: pose<"world", "base">(), links: linkSolids(robot), objects: [], allowedPairs: [] };
+  const { plan, corners } = checkProgram(program, robot, {
+    start_rad: FROM,
+    cell: { ...cell, shapeError_m: 0 },
+    cornerAreas: true,
+  });
+  const [area] = corners!;
+  /** A controller that begins to turn as early and ends as late as it may, straight from there to there. */
+  const cut = (part: number): Float64Array => {
+    const [first, last] = [posture(0, 0), posture(0, 0)];
+    samplePlan(plan, area!.from_s, first);
+    samplePlan(plan, area!.to_s, last);
+    return first.map((q, i) => q + part * (last[i]! - q));
+  };
+  /** Looks along the plan, then along the way that cuts its corner off; the joints point where they go. */
+  function goRound(isSafe: (q_rad: ArrayLike<number>) => boolean, areas = corners): readonly string[] {
+    const path = new PlannedPath(plan, n, areas ?? []);
+    const ahead = new PathAhead(path, n);
+    const looks: string[] = [];
+    const look = (q_rad: Float64Array, before: Float64Array): void => {
+      path.take(q_rad);
+      const ahead_rad = q_rad.map((q, i) => q + 20 * (q - before[i]!));
+      looks.push(ahead.look(q_rad, ahead_rad, 0.3, isSafe));
+    };
+    let before = posture(0, 0);
+    for (let t_s = 0; t_s < area!.from_s; t_s += 0.01) {
+      const q_rad = posture(0, 0);
+      samplePlan(plan, t_s, q_rad);
+      look(q_rad, before);
+      before = q_rad;
+    }
+    for (let part = 0; part <= 1; part += 0.02) {
+      look(cut(part), before);
+      before = cut(part);
+    }
+    return looks;
+  }
+  const isAt = (q_rad: ArrayLike<number>, place: Float64Array, within: number): boolean =>
+    place.every((q, i) => Math.abs(q - q_rad[i]!) < within);
+
+  test("is not entered where something is in its area that the planned curve does not meet", () => {
+    const inside = cut(0.5);
+    const isSafe = (q_rad: ArrayLike<number>): boolean => !isAt(q_rad, inside, 0.06);
+    const onPlan = posture(0, 0);
+    for (let t_s = 0; t_s <= plan.duration_s; t_s += 0.005) {
+      samplePlan(plan, t_s, onPlan);
+      expect(isSafe(onPlan)).toBe(true);
+    }
+    const entered = Math.ceil(area!.from_s / 0.01);
+    const looks = goRound(isSafe);
+    expect(looks.slice(0, entered)).toContain("unsafe");
+    expect(looks.indexOf("unsafe"), "as late as a stop allows").toBeGreaterThan(entered - 40);
+    // Without the area it is found too late: the way that is known does not come there.
+    expect(goRound(isSafe, []).slice(0, entered)).not.toContain("unsafe");
+  });
+
+  test("is free where all of its area is, wherever in it the robot is", () => {
+    const looks = goRound(() => true);
+    expect(new Set(looks)).toEqual(new Set(["free"]));
+    expect(new Set(goRound(() => true, []))).toContain("off");
+  });
+
+  test("is looked at again in a cell that changed", () => {
+    const path = new PlannedPath(plan, n, corners!);
+    const ahead = new PathAhead(path, n);
+    path.take(FROM);
+    expect(ahead.look(FROM, FROM, 10, () => true)).toBe("free");
+    const inside = cut(0.5);
+    const isSafe = (q_rad: ArrayLike<number>): boolean => !isAt(q_rad, inside, 0.06);
+    expect(ahead.look(FROM, FROM, 10, isSafe)).toBe("free");
+    ahead.forget();
+    expect(ahead.look(FROM, FROM, 10, isSafe)).toBe("unsafe");
   });
 });
 

@@ -1,4 +1,4 @@
-import { samplePlan, type Plan } from "@twincell/core";
+import { samplePlan, type CornerArea, type Plan } from "@twincell/core";
 import { PlanFollower } from "../twin/index.ts";
 
 /** The path that a motion takes, where it is known before: a plan, or straight from joint angles to joint angles. */
@@ -16,6 +16,8 @@ export interface KnownPath {
   reach(ahead_rad: ArrayLike<number>, reach_s: number): number;
   /** The path is looked at in steps of this length. */
   readonly step: number;
+  /** What the controller may make of the corners it passes without a stop, in order of `from_s`, in its measure. */
+  readonly corners: readonly CornerArea[];
   sample(at: number, out: Float64Array): void;
 }
 
@@ -29,11 +31,13 @@ export class PlannedPath implements KnownPath {
   readonly step = PLAN_STEP_S;
   /** How far from it the robot was last [rad]; NaN before the first sample. */
   off_rad = NaN;
+  readonly corners: readonly CornerArea[];
   readonly #plan: Plan;
   readonly #follower: PlanFollower;
 
-  constructor(plan: Plan, joints: number) {
+  constructor(plan: Plan, joints: number, corners: readonly CornerArea[] = []) {
     this.#plan = plan;
+    this.corners = corners;
     this.#follower = new PlanFollower(plan, joints);
   }
 
@@ -70,6 +74,7 @@ export class PlannedPath implements KnownPath {
 /** Straight from joint angles to joint angles: 0 at the beginning, 1 at the end. */
 export class StraightPath implements KnownPath {
   readonly step: number;
+  readonly corners: readonly CornerArea[] = [];
   at = 0;
   readonly #from: Float64Array;
   readonly #by: Float64Array;
@@ -113,12 +118,18 @@ const BESIDE_PATH_RAD = 0.05;
 /** Points that are looked at on the way back to the path. */
 const BESIDE_LOOKS = 10;
 
-/** Looks along a known path ahead of the robot, at each of its points once. Allocates nothing per sample. */
+/**
+ * Looks along a known path ahead of the robot, at each of its points once. How a controller rounds a corner is its own:
+ * before a robot may come into the area of one, all of the area is looked at, and inside it the robot is on its path
+ * wherever it is. Allocates nothing per sample.
+ */
 export class PathAhead {
   readonly #path: KnownPath;
   readonly #q: Float64Array;
   readonly #off: Float64Array;
   #seen = 0;
+  /** Corners whose areas were looked at, as many from the first on. */
+  #cornersSeen = 0;
 
   constructor(path: KnownPath, joints: number) {
     this.#path = path;
@@ -128,7 +139,10 @@ export class PathAhead {
 
   /** What was seen of it counts no longer: the cell, or what the gripper holds, is another. */
   forget(): void {
-    this.#seen = this.#path.at;
+    const { at, corners } = this.#path;
+    this.#seen = at;
+    const ahead = corners.findIndex(({ to_s }) => to_s > at);
+    this.#cornersSeen = ahead < 0 ? corners.length : ahead;
   }
 
   /**
@@ -143,8 +157,14 @@ export class PathAhead {
     isSafe: (q_rad: Float64Array) => boolean,
   ): "free" | "unsafe" | "off" {
     const off_rad = this.#path.off(q_rad);
-    if (!(off_rad <= BESIDE_PATH_RAD)) return "off";
+    if (!(off_rad <= BESIDE_PATH_RAD) && !this.#isInCorner(q_rad)) return "off";
     const end = this.#path.reach(ahead_rad, reach_s);
+    const { corners } = this.#path;
+    for (; this.#cornersSeen < corners.length; this.#cornersSeen++) {
+      const corner = corners[this.#cornersSeen]!;
+      if (corner.from_s > end) break;
+      if (!corner.postures_rad.every(isSafe)) return "unsafe";
+    }
     for (let at = this.#seen; at < end; at = this.#seen) {
       const next = Math.min(end, at + this.#path.step);
       this.#path.sample(next, this.#q);
@@ -152,6 +172,21 @@ export class PathAhead {
       this.#seen = next;
     }
     return off_rad <= ON_PATH_RAD || this.#isFreeBeside(q_rad, end, isSafe) ? "free" : "unsafe";
+  }
+
+  /** Whether it is in the area of a corner that the path is in now. */
+  #isInCorner(q_rad: ArrayLike<number>): boolean {
+    const { at, corners } = this.#path;
+    for (const { from_s, to_s, spacing_rad, postures_rad } of corners) {
+      if (from_s > at) return false;
+      if (to_s < at) continue;
+      for (const posture of postures_rad) {
+        let off_rad = 0;
+        for (let i = 0; i < posture.length; i++) off_rad = Math.max(off_rad, Math.abs(posture[i]! - q_rad[i]!));
+        if (off_rad <= spacing_rad + BESIDE_PATH_RAD) return true;
+      }
+    }
+    return false;
   }
 
   /** Beside the path it is where the path is and as far off as now, less and less. */

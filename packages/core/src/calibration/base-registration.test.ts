@@ -124,6 +124,7 @@ describe("T-64 the base of a real robot, with a headset's noise of 3 mm, 0.5° a
       expect(share).toBeLessThanOrEqual(0.97);
       expect(seconds).toBeLessThanOrEqual(10);
     },
+    120_000,
   );
   test("three, four or five points are less exact, and the bound says so: 93 to 97 % lie under it", () => {
     let last_m = Infinity;

@@ -71,6 +71,8 @@ const MIN_DRIVEN = 4;
 /** The assumed noise counts as much as so many degrees of freedom against what the residuals show. */
 const TRUST = 20;
 const STEPS = 12;
+/** A step this small, in metres and radians, is the last. */
+const CONVERGED = 1e-11;
 /** Noise so many times the assumed one is no noise any more. */
 const MAX_NOISE_RATIO = 3;
 /** A device must have been turned by so much between samples, about more than one axis. */
@@ -97,7 +99,10 @@ export function registerBase(
   if (touches.length < MIN_TOUCHES && driven.length < MIN_DRIVEN)
     return {
       kind: "too-few",
-      sentence: `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ${touches.length} and ${driven.length} were given.`,
+      sentence:
+        driven.length === 0
+          ? `${MIN_TOUCHES} touched points are the least; ${touches.length} were given.`
+          : `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ${touches.length} and ${driven.length} were given.`,
     };
   const start = touches.length >= MIN_TOUCHES ? registerPoints(touches.map(pairOf)) : startFromDriven(driven);
   if (start.kind === "too-few" || start.kind === "not-a-point") return { kind: start.kind, sentence: start.sentence };
@@ -212,6 +217,7 @@ class Fit {
       if (!solveSymmetric(this.#A, this.#b, this.#n))
         return { kind: "in-line", sentence: "The samples do not tell how the base is turned: spread them farther." };
       this.#move();
+      if (this.#b.every(value => Math.abs(value) < CONVERGED)) break;
     }
     this.#gather();
     const rms_m = this.#rms();
@@ -242,7 +248,11 @@ class Fit {
       sentence: "",
     };
     const bound_m = registrationBound(registered, [0, 0, 0], at_s);
-    const sentence = `The base is known to ${(1000 * bound_m).toFixed(1)} mm (95 %), from ${this.#touches.length} touched points and ${this.#driven.length} driven poses; they are met to ${(1000 * rms_m).toFixed(1)} mm (root mean square).`;
+    const [bound, rms] = [bound_m, rms_m].map(value => (1000 * value).toFixed(1));
+    const sentence =
+      this.#driven.length === 0
+        ? `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points; they are met to ${rms} mm (root mean square).`
+        : `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points and ${this.#driven.length} driven poses; they are met to ${rms} mm (root mean square).`;
     return { ...registered, bound_m, sentence };
   }
 

@@ -1,8 +1,12 @@
 import type { CertifiedPiece } from "../collision/motion.ts";
+import type { MotionCertificate } from "../collision/certificate.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
+import type { CornerCertificate } from "./corner-certificate.ts";
+import type { CornerPiece } from "./corners.ts";
 
 const FORMAT = "twincell.certificate";
-const VERSION = 1;
+/** Certificates of version 1 say nothing of corners. */
+const VERSION = 2;
 /** More pieces than this are no certificate of ours. */
 const MAX_PIECES = 5_000_000;
 
@@ -10,21 +14,31 @@ export type ReadCertificate =
   | { readonly kind: "certificate"; readonly certificate: ProgramCertificate }
   | { readonly kind: "not-a-certificate"; readonly sentence: string };
 
-/** The certificate as text: names of solids once, each piece as five numbers [a, b, from s, to s, at least m]. */
-export function writeCertificate({ robot, program, margin_m, segments }: ProgramCertificate): string {
+/**
+ * The certificate as text: names of solids once, each piece as five numbers [a, b, from, to, at least m]; `from` and
+ * `to` of motions in seconds after their start, of lines in corners as a share of the line.
+ */
+export function writeCertificate({ robot, program, margin_m, segments, corners }: ProgramCertificate): string {
   const solids: string[] = [];
   const numbers = new Map<string, number>();
   const numberOf = (name: string): number =>
     numbers.get(name) ?? (numbers.set(name, solids.length), solids.push(name) - 1);
-  const short = segments.map(({ step, start_s, from, to, clearance_m, pieces }) => ({
+  const short = (pieces: readonly CertifiedPiece[]): number[][] =>
+    pieces.map(p => [numberOf(p.a), numberOf(p.b), p.from, p.to, p.atLeast_m]);
+  const motions = segments.map(({ step, start_s, from, to, clearance_m, pieces }) => ({
     step,
     start_s,
     from,
     to,
     clearance_m: Number.isFinite(clearance_m) ? clearance_m : null,
-    pieces: pieces.map(p => [numberOf(p.a), numberOf(p.b), p.from, p.to, p.atLeast_m]),
+    pieces: short(pieces),
   }));
-  return `${JSON.stringify({ format: FORMAT, version: VERSION, robot, program, margin_m, solids, segments: short })}\n`;
+  const rounded = corners.map(({ step, at_s, pieces }) => ({
+    step,
+    at_s,
+    pieces: pieces.map(({ from, to, lines }) => ({ from, to, lines: lines.map(line => short(line.pieces)) })),
+  }));
+  return `${JSON.stringify({ format: FORMAT, version: VERSION, robot, program, margin_m, solids, segments: motions, corners: rounded })}\n`;
 }
 
 /**
@@ -39,47 +53,96 @@ export function readCertificate(text: string): ReadCertificate {
     return not("The file is not JSON.");
   }
   if (!isRecord(value) || value.format !== FORMAT) return not(`A certificate says "format": "${FORMAT}".`);
-  if (value.version !== VERSION) return not(`version: this release reads certificates of version ${VERSION}.`);
+  if (value.version !== VERSION && value.version !== 1)
+    return not(`version: this release reads certificates of the versions 1 and ${VERSION}.`);
   const { robot, program, margin_m, solids, segments } = value;
+  const corners = value.version === 1 ? [] : value.corners;
   if (typeof robot !== "string" || typeof program !== "string") return not("robot, program: two names are expected.");
   if (!isNumber(margin_m) || margin_m < 0) return not("margin_m: a number of 0 or more is expected.");
   if (!Array.isArray(solids) || !solids.every(name => typeof name === "string"))
     return not("solids: a list of names is expected.");
   if (!Array.isArray(segments)) return not("segments: a list is expected.");
-  const read: SegmentCertificate[] = [];
-  let count = 0;
-  for (const [i, segment] of (segments as unknown[]).entries()) {
-    const where = `segments[${i}]`;
-    if (
-      !isRecord(segment) ||
-      typeof segment.step !== "string" ||
-      !isNumber(segment.start_s) ||
-      !isNumber(segment.from) ||
-      !isNumber(segment.to)
-    )
-      return not(`${where}: step, start_s, from and to are expected.`);
-    const { step, start_s, from, to, clearance_m } = segment;
-    if (clearance_m !== null && !isNumber(clearance_m))
-      return not(`${where}.clearance_m: a number or null is expected.`);
-    if (!Array.isArray(segment.pieces)) return not(`${where}.pieces: a list is expected.`);
-    const pieces: CertifiedPiece[] = [];
-    if ((count += segment.pieces.length) > MAX_PIECES)
-      return not(`${where}: more than ${MAX_PIECES} pieces are not read.`);
-    for (const [k, piece] of (segment.pieces as unknown[]).entries()) {
-      if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
-        return not(`${where}.pieces[${k}]: five numbers are expected.`);
-      const [a, b, start, end, atLeast_m] = piece as [number, number, number, number, number];
-      const nameA: unknown = solids[a];
-      const nameB: unknown = solids[b];
-      if (typeof nameA !== "string" || typeof nameB !== "string")
-        return not(`${where}.pieces[${k}]: there is no such solid.`);
-      if (!(end >= start) || atLeast_m < 0)
-        return not(`${where}.pieces[${k}]: a piece ends after it begins and claims 0 or more.`);
-      pieces.push({ a: nameA, b: nameB, from: start, to: end, atLeast_m });
-    }
-    read.push({ step, start_s, from, to, clearance_m: clearance_m ?? Infinity, pieces });
+  if (!Array.isArray(corners)) return not("corners: a list is expected.");
+  const reader = new PieceReader(solids);
+  try {
+    return {
+      kind: "certificate",
+      certificate: {
+        robot,
+        program,
+        margin_m,
+        segments: (segments as unknown[]).map((segment, i) => segmentFrom(segment, `segments[${i}]`, reader)),
+        corners: (corners as unknown[]).map((corner, i) => cornerFrom(corner, `corners[${i}]`, reader)),
+      },
+    };
+  } catch (problem) {
+    if (problem instanceof NotACertificate) return not(problem.message);
+    throw problem;
   }
-  return { kind: "certificate", certificate: { robot, program, margin_m, segments: read } };
+}
+
+class NotACertificate extends Error {}
+
+function segmentFrom(value: unknown, where: string, reader: PieceReader): SegmentCertificate {
+  if (
+    !isRecord(value) ||
+    typeof value.step !== "string" ||
+    !isNumber(value.start_s) ||
+    !isNumber(value.from) ||
+    !isNumber(value.to)
+  )
+    throw new NotACertificate(`${where}: step, start_s, from and to are expected.`);
+  const { step, start_s, from, to, clearance_m } = value;
+  if (clearance_m !== null && !isNumber(clearance_m))
+    throw new NotACertificate(`${where}.clearance_m: a number or null is expected.`);
+  const pieces = reader.read(value.pieces, `${where}.pieces`);
+  return { step, start_s, from, to, clearance_m: clearance_m ?? Infinity, pieces };
+}
+
+function cornerFrom(value: unknown, where: string, reader: PieceReader): CornerCertificate {
+  if (!isRecord(value) || typeof value.step !== "string" || !isNumber(value.at_s) || !Array.isArray(value.pieces))
+    throw new NotACertificate(`${where}: step, at_s and pieces are expected.`);
+  const { step, at_s } = value;
+  const pieces = (value.pieces as unknown[]).map((piece, k): CornerPiece => {
+    const place = `${where}.pieces[${k}]`;
+    if (!isRecord(piece) || !isNumber(piece.from) || !isNumber(piece.to) || !Array.isArray(piece.lines))
+      throw new NotACertificate(`${place}: from, to and lines are expected.`);
+    const { from, to } = piece;
+    if (!(to > from)) throw new NotACertificate(`${place}: a piece ends after it begins.`);
+    const lines = (piece.lines as unknown[]).map((line, l): MotionCertificate => {
+      const own = reader.read(line, `${place}.lines[${l}]`);
+      const clearance_m = own.reduce((least, { atLeast_m }) => Math.min(least, atLeast_m), Infinity);
+      return { from: 0, to: 1, clearance_m, pieces: own };
+    });
+    return { from, to, lines };
+  });
+  return { step, at_s, pieces };
+}
+
+/** Reads lists of pieces, and no more of them than a certificate has. */
+class PieceReader {
+  readonly #solids: readonly string[];
+  #count = 0;
+  constructor(solids: readonly string[]) {
+    this.#solids = solids;
+  }
+
+  read(value: unknown, where: string): readonly CertifiedPiece[] {
+    if (!Array.isArray(value)) throw new NotACertificate(`${where}: a list is expected.`);
+    if ((this.#count += value.length) > MAX_PIECES)
+      throw new NotACertificate(`${where}: more than ${MAX_PIECES} pieces are not read.`);
+    return (value as unknown[]).map((piece, k): CertifiedPiece => {
+      if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
+        throw new NotACertificate(`${where}[${k}]: five numbers are expected.`);
+      const [a, b, from, to, atLeast_m] = piece as [number, number, number, number, number];
+      const [nameA, nameB] = [this.#solids[a], this.#solids[b]];
+      if (nameA === undefined || nameB === undefined)
+        throw new NotACertificate(`${where}[${k}]: there is no such solid.`);
+      if (!(to >= from) || atLeast_m < 0)
+        throw new NotACertificate(`${where}[${k}]: a piece ends after it begins and claims 0 or more.`);
+      return { a: nameA, b: nameB, from, to, atLeast_m };
+    });
+  }
 }
 
 const not = (sentence: string): ReadCertificate => ({ kind: "not-a-certificate", sentence });

@@ -26,6 +26,10 @@ const post = (position: Vector3): CellGeometry["objects"][number] => ({
   worldFromObject: pose(position),
   mesh: boxMesh([0.04, 0.04, 0.5]),
 });
+const tinyAt = (position: Vector3): Pick<CellGeometry["objects"][number], "worldFromObject" | "mesh"> => ({
+  worldFromObject: pose(position),
+  mesh: boxMesh([0.01, 0.01, 0.01]),
+});
 const cellWith = (position: Vector3): CellGeometry => ({
   worldFromBase: identity(),
   links: linkSolids(robot),
@@ -84,6 +88,7 @@ describe("M-49 a program carries what proves it clear", () => {
       kind: "missing",
       step: "a",
       start_s: 0,
+      of: "motion",
     });
   });
 
@@ -94,6 +99,52 @@ describe("M-49 a program carries what proves it clear", () => {
       { cell: CELL },
     ).plan;
     expect(verify(certificate, CELL, other).kind).not.toBe("confirmed");
+  });
+
+  test("the corner that is passed without a stop has one of its own: left out, cut short or claiming too little it proves nothing", () => {
+    const [a, b, c] = program.steps as readonly MoveStep[];
+    const rounded = { ...program, steps: [a!, { ...b!, blend_m: 0.04 }, c!] };
+    const { certificate: whole, plan, verdict } = checkProgram(rounded, robot, { cell: CELL, certify: true });
+    const prove = (corners: ProgramCertificate["corners"], cell = CELL): ReturnType<typeof verifyProgram> =>
+      verifyProgram({ ...whole!, corners }, rounded, plan, robot, cell);
+    expect(verdict.ok).toBe(true);
+    expect(whole!.corners.map(({ step }) => step)).toEqual(["b"]);
+    expect(prove(whole!.corners)).toMatchObject({ kind: "confirmed", segments: 3, corners: 1 });
+    const missing = { kind: "missing", step: "b", of: "corner" };
+    expect(prove([])).toMatchObject(missing);
+    const [corner] = whole!.corners;
+    expect(prove([{ ...corner!, pieces: corner!.pieces.slice(1) }])).toMatchObject(missing);
+    const claims = (atLeast_m: number): ProgramCertificate["corners"] => [
+      {
+        ...corner!,
+        pieces: corner!.pieces.map(piece => ({
+          ...piece,
+          lines: piece.lines.map(line => ({
+            ...line,
+            pieces: line.pieces.map(one => (one.b === "post" ? { ...one, atLeast_m } : one)),
+          })),
+        })),
+      },
+    ];
+    expect(prove(claims(0))).toMatchObject({ kind: "refuted", step: "b", reason: "below margin", b: "post" });
+    expect(prove(claims(5))).toMatchObject({ kind: "refuted", step: "b", reason: "too near", b: "post" });
+    const text = writeCertificate(whole!);
+    const read = readCertificate(text);
+    expect(read).toEqual({ kind: "certificate", certificate: whole });
+    // A certificate of the first version says nothing of corners: it is read, and proves no program that has some.
+    const old = readCertificate(text.replace('"version":2', '"version":1'));
+    if (old.kind !== "certificate") throw new Error(old.sentence);
+    expect(verifyProgram(old.certificate, rounded, plan, robot, CELL)).toMatchObject(missing);
+  });
+
+  test("a corner that is too near to something has none", () => {
+    const [a, b, c] = program.steps as readonly MoveStep[];
+    const rounded = { ...program, steps: [a!, { ...b!, blend_m: 0.06 }, c!] };
+    const clear = checkProgram(rounded, robot, { cell: CELL, certify: true });
+    const near: CellGeometry = { ...CELL, objects: [{ ...post([0, 0, 0]), ...tinyAt([0.53, -0.17, 0.5]) }] };
+    const blocked = checkProgram(rounded, robot, { cell: near, certify: true });
+    expect(clear.certificate!.corners).toHaveLength(1);
+    expect(blocked.certificate!.corners).toEqual([]);
   });
 
   test("a motion in contact has none", () => {
@@ -119,7 +170,7 @@ describe("a certificate as a file", () => {
     };
     expect(why("{")).toBe("The file is not JSON.");
     expect(why("[]")).toMatch(/format/);
-    expect(why(text.replace('"version":1', '"version":2'))).toMatch(/^version: /);
+    expect(why(text.replace('"version":2', '"version":3'))).toMatch(/^version: /);
     expect(why(text.replace('"margin_m":0.002', '"margin_m":-1'))).toMatch(/^margin_m: /);
     expect(why(text.replace('"pieces":[[', '"pieces":[["x",'))).toMatch(/^segments\[0\]\.pieces\[0\]: five numbers/);
     expect(why(text.replace('"pieces":[[0,', '"pieces":[[999,'))).toMatch(

@@ -1,11 +1,15 @@
 import { CellCollider } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
 import { verifyCertificate, type CertificateVerdict, type MotionCertificate } from "../collision/certificate.ts";
-import { marginOf, type JointMotion } from "../collision/motion.ts";
+import { marginOf } from "../collision/motion.ts";
 import type { Robot } from "../model/robot.ts";
-import type { MotionSegment, Plan } from "../trajectory/plan.ts";
-import { sampleSegment } from "../trajectory/sample.ts";
-import { GraspedParts } from "./grasped-parts.ts";
+import { layOutProgram } from "../trajectory/layout.ts";
+import type { Plan } from "../trajectory/plan.ts";
+import { samplePlan } from "../trajectory/sample.ts";
+import { verifyCorner, type CornerCertificate } from "./corner-certificate.ts";
+import { cornersOf, type PassedCorner } from "./corners.ts";
+import { GraspedParts, type Stretch } from "./grasped-parts.ts";
+import { motionOf } from "./segment-motion.ts";
 import type { Program } from "../program/program.ts";
 
 /** The proof of one motion of a plan: t is seconds after its start. */
@@ -14,19 +18,29 @@ export interface SegmentCertificate extends MotionCertificate {
   readonly start_s: number;
 }
 
-/** What proves a whole program clear of contact: one certificate for each of its motions. Plain data. */
+/**
+ * What proves a whole program clear of contact: one certificate for each of its motions, and one for each corner that
+ * it passes without a stop. Plain data.
+ */
 export interface ProgramCertificate {
   readonly robot: string;
   readonly program: string;
   /** The distance asked for between robot and cell [m]. */
   readonly margin_m: number;
   readonly segments: readonly SegmentCertificate[];
+  /** Corners that are too near to something, or that the arm does not reach all over, have none. */
+  readonly corners: readonly CornerCertificate[];
 }
 
 export type ProgramCertificateVerdict =
-  | { readonly kind: "confirmed"; readonly segments: number; readonly looks: number }
-  /** A motion of the plan that no certificate is about. */
-  | { readonly kind: "missing"; readonly step: string; readonly start_s: number }
+  | { readonly kind: "confirmed"; readonly segments: number; readonly corners: number; readonly looks: number }
+  /** A motion of the plan, or the corner at the end of one, that no certificate is about. */
+  | {
+      readonly kind: "missing";
+      readonly step: string;
+      readonly start_s: number;
+      readonly of: "motion" | "corner";
+    }
   /** A claim that does not hold, or is less than the margin. */
   | {
       readonly kind: "refuted";
@@ -39,17 +53,6 @@ export type ProgramCertificateVerdict =
 
 /** Segments start at the same time when they differ by less [s]. */
 const SAME_TIME_S = 1e-9;
-
-/** The motion of a segment with bounds on its joint speeds. `rates` receives them and is kept by the motion. */
-export function motionOf(segment: MotionSegment, rates: Float64Array): JointMotion {
-  topSpeeds(segment, rates);
-  return {
-    sample: (t, out) => {
-      sampleSegment(segment, t, out);
-    },
-    maxRate: rates,
-  };
-}
 
 /**
  * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of
@@ -69,16 +72,28 @@ export function verifyProgram(
   const rates = new Float64Array(robot.arm.joints.length);
   collider.allowContactsAt(robot.home_rad);
   const parts = new GraspedParts(collider, cell, program, robot.arm, plan.segments, certificate.margin_m);
+  const passed = cornersOfPlan(program, plan, robot, cell);
+  let before: Stretch | undefined;
   let segments = 0;
+  let corners = 0;
   let looks = 0;
   for (const segment of plan.segments) {
     const stretches = parts.enter(segment);
     if (segment.kind !== "motion" || segment.times_s.length < 2) continue;
+    const corner = passed.get(keyOf(segment.start_s));
+    if (corner !== undefined) {
+      const answer = verifyCorner(collider, robot, cell, certificate, corner, before, stretches[0]);
+      if (answer.kind !== "confirmed") return answer;
+      passed.delete(keyOf(segment.start_s));
+      looks += answer.looks;
+      corners++;
+    }
+    before = stretches.at(-1);
     const own = certificate.segments.find(
       ({ step, start_s }) => step === segment.step && Math.abs(start_s - segment.start_s) < SAME_TIME_S,
     );
     if (own === undefined || own.from > 0 || own.to < segment.duration_s)
-      return { kind: "missing", step: segment.step, start_s: segment.start_s };
+      return { kind: "missing", step: segment.step, start_s: segment.start_s, of: "motion" };
     for (const { from, to, watched, keepsMargin } of stretches) {
       const proof =
         stretches.length === 1
@@ -114,24 +129,28 @@ export function verifyProgram(
     }
     segments++;
   }
-  return { kind: "confirmed", segments, looks };
+  // A plan that is not the program's own has its corners elsewhere.
+  const [left] = passed.values();
+  if (left !== undefined) return { kind: "missing", step: left.step, start_s: left.at_s, of: "corner" };
+  return { kind: "confirmed", segments, corners, looks };
 }
 
-/**
- * Bounds on the joint speeds of a motion. A cubic's speed in Bernstein form is q̇₀, 3 Δq/h − q̇₀ − q̇₁, q̇₁ and stays
- * within the largest of them.
- */
-function topSpeeds({ times_s, q_rad, qd_rad_s }: MotionSegment, out: Float64Array): void {
-  const n = out.length;
-  out.fill(0);
-  for (let i = 0; i + 1 < times_s.length; i++) {
-    const h = times_s[i + 1]! - times_s[i]!;
-    for (let j = 0; j < n; j++) {
-      const a = i * n + j;
-      const d0 = qd_rad_s[a]!;
-      const d1 = qd_rad_s[a + n]!;
-      const m = h > 0 ? (3 * (q_rad[a + n]! - q_rad[a]!)) / h - d0 - d1 : 0;
-      out[j] = Math.max(out[j]!, Math.abs(d0), Math.abs(d1), Math.abs(m));
-    }
+const keyOf = (at_s: number): number => Math.round(at_s / SAME_TIME_S);
+
+/** The corners that the program passes without a stop, laid out anew, by the moment of the plan at which they are. */
+function cornersOfPlan(
+  program: Program,
+  plan: Plan,
+  robot: Robot,
+  { worldFromBase }: CellGeometry,
+): Map<number, PassedCorner> {
+  const start_rad = new Float64Array(robot.arm.joints.length);
+  samplePlan(plan, 0, start_rad);
+  const layout = layOutProgram(program, robot, { worldFromBase, start_rad });
+  const corners = new Map<number, PassedCorner>();
+  for (const corner of cornersOf({ layout, robot }).values()) {
+    const step = layout.turns.get(corner.step)?.written.id ?? corner.step;
+    corners.set(keyOf(corner.at_s), { ...corner, step });
   }
+  return corners;
 }

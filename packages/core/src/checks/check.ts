@@ -16,12 +16,15 @@ import { checkSpeed } from "./speed.ts";
 import { checkEdges } from "./edges.ts";
 import { FindingCollector } from "./finding-collector.ts";
 import { checkFlow } from "./flow.ts";
+import { checkCarriedLoad } from "./carried-load.ts";
 import { checkPayload } from "./payload.ts";
 import { checkSignals } from "./signals.ts";
 import { checkStand } from "./stand.ts";
 import { checkTorque } from "./torque.ts";
 import { checkWorkspace } from "./workspace.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
+import type { CornerArea } from "./corner-area.ts";
+import type { CornerCertificate } from "./corner-certificate.ts";
 import { GRIP_REACH_M, partsAreFollowed, type CarriedPart } from "./grasped-parts.ts";
 import type { Program, Step } from "../program/program.ts";
 import type { Finding, Verdict } from "./verdict.ts";
@@ -39,6 +42,8 @@ export interface CheckOptions {
   readonly margin_m?: number;
   /** Whether to keep what proves every motion clear of contact, for `verifyProgram`. */
   readonly certify?: boolean;
+  /** Whether to keep the areas of the corners that are passed without a stop. */
+  readonly cornerAreas?: boolean;
   /** What the flange carries before the first payload step; nothing by default. */
   readonly payload?: Payload;
   /** Called with 0 … 1 now and then. */
@@ -56,6 +61,8 @@ export interface Checked {
   readonly carried: readonly CarriedPart[];
   /** With `certify` and a cell: motions that are not clear have none. Steps are named as they are in the plan. */
   readonly certificate?: ProgramCertificate;
+  /** With `cornerAreas` and a cell, in order of time. */
+  readonly corners?: readonly CornerArea[];
 }
 
 /** The part of the work that laying out is when a cell is checked as well. */
@@ -112,13 +119,16 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const margin_m = options.margin_m ?? 0;
   const certificates: SegmentCertificate[] | undefined =
     options.certify === true && cell !== undefined ? [] : undefined;
+  const cornerProofs: CornerCertificate[] = [];
+  const areas: CornerArea[] | undefined = options.cornerAreas === true && cell !== undefined ? [] : undefined;
   const collision =
     cell === undefined
       ? undefined
       : checkCollision(scene, {
           cell,
           margin_m,
-          ...(certificates === undefined ? {} : { certificates }),
+          ...(certificates === undefined ? {} : { certificates, corners: cornerProofs }),
+          ...(areas === undefined ? {} : { areas }),
           ...(onProgress === undefined
             ? {}
             : {
@@ -128,6 +138,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
               }),
           ...(cancelled === undefined ? {} : { cancelled }),
         });
+  if (cell !== undefined) checkCarriedLoad(scene, cell, collision?.carried ?? []);
   onProgress?.(1);
   const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
   const written = [...everyStep(program)];
@@ -162,14 +173,24 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const plan = asWritten(layout);
   const bad = book.bad();
   const parts = collision?.carried ?? [];
-  if (certificates === undefined) return { verdict, bad, plan, carried: parts };
-  const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
+  const checked: Checked =
+    areas === undefined
+      ? { verdict, bad, plan, carried: parts }
+      : { verdict, bad, plan, carried: parts, corners: areas };
+  if (certificates === undefined) return checked;
+  const byWrittenId = <T extends { readonly step: string }>(each: T): T => ({
+    ...each,
+    step: writtenId(layout, each.step),
+  });
   return {
-    verdict,
-    bad,
-    plan,
-    carried: parts,
-    certificate: { robot: robot.id, program: program.name, margin_m, segments },
+    ...checked,
+    certificate: {
+      robot: robot.id,
+      program: program.name,
+      margin_m,
+      segments: certificates.map(byWrittenId),
+      corners: cornerProofs.map(byWrittenId),
+    },
   };
 }
 

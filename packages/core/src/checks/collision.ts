@@ -6,7 +6,9 @@ import type { MotionSegment, Segment } from "../trajectory/plan.ts";
 import { RunPlanner } from "../trajectory/run.ts";
 import { sampleSegment } from "../trajectory/sample.ts";
 import type { SegmentCertificate } from "./certificate.ts";
-import { cornersOf, firstInCorner, type InCorner, type PassedCorner } from "./corners.ts";
+import { cornerArea, type CornerArea } from "./corner-area.ts";
+import type { CornerCertificate } from "./corner-certificate.ts";
+import { certifyCorner, cornersOf, judgeCorner, type InCorner, type PassedCorner } from "./corners.ts";
 import { freshStepIds } from "../program/edit.ts";
 import { GraspedParts, type CarriedPart, type Stretch } from "./grasped-parts.ts";
 import { Prover } from "./prover.ts";
@@ -22,6 +24,10 @@ export interface CollisionOptions {
   readonly margin_m: number;
   /** Receives the proof of every motion that is clear. */
   readonly certificates?: SegmentCertificate[];
+  /** Receives the proof of every corner that is clear whatever curve a controller takes in it. */
+  readonly corners?: CornerCertificate[];
+  /** Receives the area of every corner, clear or not. */
+  readonly areas?: CornerArea[];
   readonly onProgress?: (share: number) => void;
   readonly cancelled?: () => boolean;
 }
@@ -61,6 +67,7 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
   const all = [...motions(scene)];
   const corners = cornersOf(scene);
   const rounded: { readonly corner: PassedCorner; readonly found: InCorner; readonly held: string | undefined }[] = [];
+  const unreached: PassedCorner[] = [];
   let before: readonly Stretch[] = [];
   let repaired = 0;
   let i = 0;
@@ -68,8 +75,19 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     const stretches = parts.enter(segment);
     if (segment !== all[i]) continue;
     const corner = corners.get(segment);
-    const inCorner = corner && firstInCorner(corner, prover, before.at(-1), stretches[0]);
-    if (corner !== undefined && inCorner !== undefined) rounded.push({ corner, found: inCorner, held: parts.held });
+    if (corner !== undefined) {
+      const sides = [before.at(-1), stretches[0]] as const;
+      const judged = judgeCorner(corner, prover, ...sides);
+      const { step, at_s } = corner;
+      if (judged.found !== undefined) rounded.push({ corner, found: judged.found, held: parts.held });
+      else if (judged.isUnproven) unreached.push(corner);
+      else {
+        const pieces = options.corners && certifyCorner(corner, judged, prover, ...sides);
+        if (pieces !== undefined) options.corners?.push({ step, at_s, pieces });
+      }
+      const area = options.areas && cornerArea(corner);
+      if (area !== undefined) options.areas?.push(area);
+    }
     before = stretches;
     if (options.cancelled?.() === true) {
       for (const rest of all.slice(i)) unproven.add(rest.step);
@@ -105,6 +123,12 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
   for (const { corner, found: inCorner, held } of rounded)
     if (!found.has(corner.step) && !found.has(corner.next))
       addCorner(scene, corner, inCorner, sentenceOf(inCorner.contact, cell, held, corner.at_s, margin_m));
+  const stuck = new Set(scene.layout.obstacles.map(({ move }) => move.step.id));
+  for (const corner of unreached)
+    if ([corner.step, corner.next].every(step => !found.has(step) && !stuck.has(step))) {
+      unproven.add(corner.step);
+      addUnreached(scene, corner);
+    }
   const { taken, missed, carried } = parts;
   return {
     clearance_m:
@@ -138,6 +162,22 @@ function addCorner(
     repairs: isFreeSharp
       ? [{ kind: "zone", sentence: "Stop at the point: zone 0.", replace: { ...move, blend_m: 0, blend_ratio: 0 } }]
       : [],
+  });
+}
+
+/** A corner that is not proven all over, because the arm does not reach all of it in the posture of the plan. */
+function addUnreached(scene: CheckScene, { step, at_s }: PassedCorner): void {
+  const move = scene.layout.moves.get(step)!.step;
+  scene.add(step, "warn", {
+    code: "collision.corner-out-of-reach",
+    value: 0,
+    limit: 0,
+    unit: "m",
+    at_s,
+    sentence: `The corner at ${seconds(at_s)} is not proven clear all over: the arm does not reach all of what a controller may make of it in this posture. Use zone 0, or a smaller one.`,
+    repairs: [
+      { kind: "zone", sentence: "Stop at the point: zone 0.", replace: { ...move, blend_m: 0, blend_ratio: 0 } },
+    ],
   });
 }
 

@@ -19,6 +19,7 @@ import { checkProgram } from "./check.ts";
 
 const rx90 = robotById("staubli_rx90l")!;
 const gp8 = robotById("yaskawa_gp8")!;
+const ur10e = robotById("ur10e")!;
 const lrMate = robotById("fanuc_lrmate200id")!;
 const DOWN: Quaternion = [1, 0, 0, 0];
 /** The same arm, of whose controllers nothing is known. */
@@ -119,6 +120,35 @@ describe("a corner that is rounded is proven for whatever curve the controller t
         ]),
       ),
     ).toEqual([]);
+  });
+
+  test("T-63 a corner that the arm reaches not all over is said, with zone 0 as the way out, and the program is not called clear", () => {
+    const { tool: _, ...far } = cellOf(ur10e, [
+      [-1.5, 1.5, 0.3],
+      [0.1, 0.1, 0.1],
+    ]);
+    const at = (id: string, position: Vector3, blend_m = 0): MoveStep => ({
+      ...lin(id, position, blend_m),
+      target: { pose: { position, quaternion: DOWN }, frame: "world", tool: "flange" },
+    });
+    // Both ways lead past the column of the arm, and the chord that cuts the corner off leads through it.
+    const program: Program = {
+      ...programOf(ur10e),
+      steps: [
+        { ...at("ready", [-0.3, -0.6, 0.3]), path: "ptp", speed: { ratio: 0.5 } },
+        at("corner", [0.4, 0, 0.3], 0.6),
+        at("on", [-0.3, 0.6, 0.3]),
+      ],
+    };
+    const { verdict, bad } = checkProgram(program, ur10e, { cell: far });
+    const corner = verdict.steps.find(({ id }) => id === "corner")!;
+    expect(bad).toEqual([]);
+    expect(corner.verdict).toBe("unknown");
+    expect(corner.findings.map(({ code }) => code)).toEqual(["collision.corner-out-of-reach"]);
+    expect(corner.findings[0]!.sentence).toMatch(/^The corner at \d+\.\d\d s is not proven clear all over: /);
+    expect(verdict.ok).toBe(false);
+    const sharp = applyRepair(program, "corner", corner.findings[0]!.repairs[0]!);
+    expect(checkProgram(sharp, ur10e, { cell: far }).verdict.ok).toBe(true);
   });
 
   test("T-63 levels and shares count where the robot's language has no distances: a GP8 takes PL=1 for 4 mm", () => {

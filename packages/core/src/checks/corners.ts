@@ -1,3 +1,4 @@
+import type { MotionCertificate } from "../collision/certificate.ts";
 import type { MotionVerdict } from "../collision/motion.ts";
 import { cornerRulesOf, ruledCorner } from "../trajectory/corner-rules.ts";
 import { blends, passes, type Move } from "../trajectory/moves.ts";
@@ -17,6 +18,9 @@ export interface PassedCorner {
   readonly next: string;
   readonly at_s: number;
   readonly sweep: CornerSweep;
+  /** The motions of the plan on both sides of it. */
+  readonly before: MotionSegment;
+  readonly behind: MotionSegment;
 }
 export interface InCorner {
   readonly contact: Contact;
@@ -24,11 +28,27 @@ export interface InCorner {
   readonly isFreeSharp: boolean;
 }
 
+/** A piece of a corner that is proven clear: its chords, `from` … `to`, are all near the one in the middle. */
+export interface CornerPiece {
+  readonly from: number;
+  readonly to: number;
+  /** Of each line of the chord in the middle, t from 0 to 1. */
+  readonly lines: readonly MotionCertificate[];
+}
+export interface JudgedCorner {
+  /** What is too near in it, whatever curve the controller takes; undefined where nothing is. */
+  readonly found: InCorner | undefined;
+  /** Nothing is proven of a part of it: as a rule because the arm does not reach it in the posture of the plan. */
+  readonly isUnproven: boolean;
+  /** The pieces in which it was found clear. */
+  readonly clear: readonly Omit<CornerPiece, "lines">[];
+}
+
 /** A chord that no other posture it stands for is farther from in any joint is not told apart from them [rad]. */
 const FINEST_RAD = 0.0005;
 /** Chords of one corner at most; what is left then counts as too near. */
 const MOST_CHORDS = 2000;
-/** Parts of a corner in which the arm may be found to be out of reach; smaller ones are left out. */
+/** A corner is looked at in no smaller parts for where the arm is out of reach. */
 const PARTS = 16;
 
 /**
@@ -37,7 +57,7 @@ const PARTS = 16;
  * languages of the robot make of it (`CornerRule`), whichever is farther. Whatever curve it takes in there lies between
  * the two ways and the chord that cuts them off.
  */
-export function cornersOf(scene: CheckScene): ReadonlyMap<MotionSegment, PassedCorner> {
+export function cornersOf(scene: Pick<CheckScene, "layout" | "robot">): ReadonlyMap<MotionSegment, PassedCorner> {
   const { layout, robot } = scene;
   const found = new Map<MotionSegment, PassedCorner>();
   const rules = cornerRulesOf(robot);
@@ -52,8 +72,11 @@ export function cornersOf(scene: CheckScene): ReadonlyMap<MotionSegment, PassedC
     );
     for (const sweep of sweeps) {
       const next = parts[sweep.move + 1]!;
+      const before = parts[sweep.move]!;
       found.set(next, {
-        step: parts[sweep.move]!.step,
+        before,
+        behind: next,
+        step: before.step,
         next: next.step,
         at_s: next.start_s,
         sweep,
@@ -65,7 +88,7 @@ export function cornersOf(scene: CheckScene): ReadonlyMap<MotionSegment, PassedC
 
 /** Motions that are passed into each other, each with its move. */
 function* runsOf(
-  scene: CheckScene,
+  scene: Pick<CheckScene, "layout" | "robot">,
 ): Generator<{ readonly parts: readonly MotionSegment[]; readonly moves: readonly Move[] }, void> {
   let parts: MotionSegment[] = [];
   let moves: Move[] = [];
@@ -100,41 +123,96 @@ function meet(before: MotionSegment, behind: MotionSegment, joints: number): boo
 }
 
 /**
- * What is too near in a corner, whatever curve the controller takes in it; undefined where nothing is. Chord by chord,
- * each with room for all that lie between it and those beside it; where that is too much, by halves.
+ * Judges a corner for whatever curve the controller takes in it. Chord by chord, each with room for all that lie
+ * between it and those beside it; where that is too much, by halves.
  *
  * @param before @param behind  what is watched at the end of the motion before and at the beginning of the one behind.
  */
-export function firstInCorner(
-  { sweep }: PassedCorner,
+export function judgeCorner(
+  { sweep }: Pick<PassedCorner, "sweep">,
   prover: Prover,
   before: Stretch | undefined,
   behind: Stretch | undefined,
-): InCorner | undefined {
-  const both = [before, behind].filter(each => each !== undefined);
-  const pairs: Pick<Stretch, "watched" | "keepsMargin"> = {
-    watched: pair => both.every(({ watched }) => watched(pair)),
-    keepsMargin: pair => both.every(({ keepsMargin }) => keepsMargin(pair)),
-  };
+): JudgedCorner {
+  const pairs = pairsInCorner(before, behind);
   const open: [from: number, to: number][] = [[0, 1]];
   let looks = 0;
+  let isUnproven = false;
+  const clear: Omit<CornerPiece, "lines">[] = [];
   for (let part = open.pop(); part; part = open.pop()) {
     const [from, to] = part;
     const middle = (from + to) / 2;
-    const [first, chord, last] = [sweep.chord(from), sweep.chord(middle), sweep.chord(to)];
-    if (first === undefined || chord === undefined || last === undefined) {
+    const around = chordsAround(sweep, from, to);
+    if (around === undefined) {
       if (to - from > 1 / PARTS) open.push([middle, to], [from, middle]);
+      else isUnproven = true;
       continue;
     }
-    const slack_rad = spread(chord, first, last);
+    const { chord, slack_rad } = around;
     const contact = onChord(chord, slack_rad, prover, pairs);
     looks++;
-    if (contact === undefined) continue;
-    if (Math.max(...slack_rad) <= FINEST_RAD || looks >= MOST_CHORDS)
-      return { contact, isFreeSharp: isFreeSharp(sweep, prover, pairs) };
-    open.push([middle, to], [from, middle]);
+    if (contact === undefined) {
+      clear.push({ from, to });
+      continue;
+    }
+    const isFinest = Math.max(...slack_rad) <= FINEST_RAD || looks >= MOST_CHORDS;
+    if (isFinest && contact === "undecided") isUnproven = true;
+    else if (isFinest && contact !== "undecided")
+      return { found: { contact, isFreeSharp: isFreeSharp(sweep, prover, pairs) }, isUnproven, clear };
+    else open.push([middle, to], [from, middle]);
   }
-  return undefined;
+  return { found: undefined, isUnproven, clear };
+}
+
+/** What proves a corner clear that was judged so; undefined where a piece of it does not stand by itself. */
+export function certifyCorner(
+  { sweep }: Pick<PassedCorner, "sweep">,
+  { clear }: JudgedCorner,
+  prover: Prover,
+  before: Stretch | undefined,
+  behind: Stretch | undefined,
+): readonly CornerPiece[] | undefined {
+  const pairs = pairsInCorner(before, behind);
+  const pieces: CornerPiece[] = [];
+  for (const { from, to } of clear) {
+    const around = chordsAround(sweep, from, to);
+    if (around === undefined) return undefined;
+    const { chord, slack_rad } = around;
+    const lines: MotionCertificate[] = [];
+    for (let k = 1; k < chord.length; k++) {
+      const { certificate } = prover.certifyLine(chord[k - 1]!, chord[k]!, slack_rad, pairs);
+      if (certificate === null) return undefined;
+      lines.push(certificate);
+    }
+    pieces.push({ from, to, lines });
+  }
+  return pieces;
+}
+
+/** The pairs that are watched on both sides of a corner. */
+export function pairsInCorner(
+  before: Stretch | undefined,
+  behind: Stretch | undefined,
+): Pick<Stretch, "watched" | "keepsMargin"> {
+  const both = [before, behind].filter(each => each !== undefined);
+  return {
+    watched: pair => both.every(({ watched }) => watched(pair)),
+    keepsMargin: pair => both.every(({ keepsMargin }) => keepsMargin(pair)),
+  };
+}
+
+/**
+ * The chord in the middle of a piece, and how far any joint is from it on the others; undefined where the arm is out of
+ * reach.
+ */
+export function chordsAround(
+  sweep: CornerSweep,
+  from: number,
+  to: number,
+): { readonly chord: readonly Float64Array[]; readonly slack_rad: Float64Array } | undefined {
+  const [first, chord, last] = [sweep.chord(from), sweep.chord((from + to) / 2), sweep.chord(to)];
+  if (first === undefined || chord === undefined || last === undefined) return undefined;
+  return { chord, slack_rad: spread(chord, first, last) };
 }
 
 /** How far any joint is from a chord on those beside it, at most. */
@@ -156,10 +234,11 @@ function onChord(
   slack_rad: Float64Array,
   prover: Prover,
   pairs: Pick<Stretch, "watched" | "keepsMargin">,
-): Contact | undefined {
+): Contact | "undecided" | undefined {
   for (let k = 1; k < chord.length; k++) {
     const verdict = prover.proveLine(chord[k - 1]!, chord[k]!, slack_rad, pairs);
     if (verdict.kind === "contact") return verdict;
+    if (verdict.kind === "undecided") return "undecided";
   }
   return undefined;
 }

@@ -32,8 +32,9 @@ const LEAST_SAMPLES = 3;
 
 /**
  * Whether a robot could follow a recorded hand as it went (rows M-36, L-33): position and orientation of every sample
- * to inverse kinematics, nearest to the posture before; speeds and accelerations of the joints, by central differences of
- * the averaged angles, to their limits and to inverse dynamics. Samples that are not reached are passed over.
+ * to inverse kinematics, nearest to the posture before; speeds and accelerations of the joints, by central
+ * differences of the averaged angles, to their limits and to inverse dynamics. Samples that are not reached are
+ * passed over.
  *
  *   q_i = IK(x_i),   q̇_i = (q_{i+1} − q_{i−1}) / (t_{i+1} − t_{i−1}),   q̈ likewise of q̇,   τ = RNEA(q, q̇, q̈)
  *

@@ -4,8 +4,8 @@ import { ClearanceMaps } from "../collision/clearance-map.ts";
 import { checkMotion, jointLine, type MotionVerdict } from "../collision/motion.ts";
 import type { SerialArm } from "../model/arm.ts";
 import type { MotionSegment } from "../trajectory/plan.ts";
-import { motionOf } from "./certificate.ts";
 import type { Stretch } from "./grasped-parts.ts";
+import { motionOf } from "./segment-motion.ts";
 
 /** Proves single motions; keeps the working memory of one collider. */
 export class Prover {
@@ -49,6 +49,20 @@ export class Prover {
     return checkMotion(this.collider, jointLine(from_rad, to_rad), 0, 1, {
       margin_m: this.margin_m,
       maps: this.maps,
+      slack_rad,
+      ...pairs,
+    });
+  }
+
+  /** As `proveLine`, and what proves it. */
+  certifyLine(
+    from_rad: ArrayLike<number>,
+    to_rad: ArrayLike<number>,
+    slack_rad: ArrayLike<number>,
+    pairs: Pick<Stretch, "watched" | "keepsMargin">,
+  ): ReturnType<typeof certifyMotion> {
+    return certifyMotion(this.collider, jointLine(from_rad, to_rad), 0, 1, {
+      margin_m: this.margin_m,
       slack_rad,
       ...pairs,
     });

@@ -30,7 +30,8 @@ export interface Repair extends ProgramChange {
 
 export interface Finding {
   /**
-   * "reach.too-far", "limits.joint", "speed.joint", "branch.jump", "collision.contact", "collision.corner", …
+   * "reach.too-far", "limits.joint", "speed.joint", "branch.jump", "collision.contact", "collision.corner",
+   * "collision.corner-out-of-reach", …
    */
   readonly code: string;
   /** Counts from 1. */

@@ -95,7 +95,7 @@ export function checkMotion(
   const margins = pairs.map(
     pair =>
       (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0) +
-      (slack_rad === undefined ? 0 : relativeRate(pair, slack_rad)),
+      (slack_rad === undefined ? 0 : slackOf(pair, slack_rad)),
   );
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i).filter(i => watched(pairs[i]!)) }];
@@ -187,6 +187,9 @@ function relativeRate(pair: SolidPair, maxRate: ArrayLike<number>): number {
   for (let k = firstBetween(pair); k < outer.carrier; k++) rate += maxRate[k]! * outer.reach_m[k]!;
   return rate;
 }
+
+/** How much nearer a pair may be where every joint is off by at most so much [m]. */
+export const slackOf = (pair: SolidPair, slack_rad: ArrayLike<number>): number => relativeRate(pair, slack_rad);
 
 /**
  * Bound on how fast the outer solid turns seen from the other [rad per unit of t]: a point r from its origin is Σ rate

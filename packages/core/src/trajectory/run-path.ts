@@ -206,7 +206,8 @@ export class RunPath {
   }
 
   /**
-   * The corners of a run with all that controllers may make of them; none where the run cannot be laid out.
+   * The corners of a run with all that controllers may make of them; none where the run cannot be laid out. A corner
+   * whose point the arm does not reach has no chords.
    *
    * @param ends_rad  postures near the points of the moves, one a move; where TCP paths meet, the arm is followed from
    *   there.
@@ -233,7 +234,7 @@ export class RunPath {
       }
       if (leg.length - leave <= SHORTEST_M && join <= SHORTEST_M) continue;
       const chord = this.chords(leg, next, leg.length - leave, join, ends_rad[i]!);
-      if (chord !== undefined) found.push({ move: i, chord });
+      found.push({ move: i, chord: chord ?? ((): undefined => undefined) });
     }
     return found;
   }

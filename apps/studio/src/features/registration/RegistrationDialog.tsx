@@ -19,6 +19,7 @@ import {
   addRegistrationPoint,
   applyRegistration,
   changeRegistrationPoint,
+  keptError,
   MAX_POINTS,
   registrationOf,
   registrationStore,
@@ -111,7 +112,7 @@ function Body() {
       </div>
       <p role="status" className="registration-answer" data-kind={answer.kind}>
         {say(answer.sentence)}
-        {bound_m !== null && <b> {SAID.bound(showNumber(bound_m, "length", 1))}</b>}
+        {bound_m !== null && <b> {SAID.bound(showNumber(keptError(bound_m), "length", 1))}</b>}
       </p>
       {state.checked !== "" && (
         <p role="status" className="small registration-checked">

@@ -46,7 +46,7 @@ function Alone() {
     });
   }, []);
   return (
-    <div className="stack together">
+    <div className="stack edit-together">
       <p className="small muted">{words.together.alone}</p>
       <button
         className="btn primary"
@@ -65,7 +65,7 @@ function Alone() {
       {names !== null && <h3 className="heading">{words.together.open}</h3>}
       {names?.length === 0 && <p className="small muted">{words.together.none}</p>}
       {names?.map(name => (
-        <div key={name} className="row-flex together-row">
+        <div key={name} className="row-flex edit-together-row">
           <span className="grow">{name}</span>
           <button
             className="btn"
@@ -101,12 +101,12 @@ function Here() {
     });
   };
   return (
-    <div className="stack together">
+    <div className="stack edit-together">
       <p>
         {words.together.in(cell)} <span className="small muted">· {words.together.states[state]}</span>
         {waiting > 0 && <span className="small muted"> · {words.together.waiting(waiting)}</span>}
       </p>
-      <ul className="together-people" aria-label={words.together.title}>
+      <ul className="edit-together-people" aria-label={words.together.title}>
         <li>
           <i aria-hidden style={{ background: "var(--accent)" }} />
           {words.together.here(who, words.together.you)}
@@ -122,7 +122,7 @@ function Here() {
           <h3 className="heading">{words.together.link}</h3>
           <p className="small muted">{words.together.linkSays}</p>
           {link !== "" && <code className="people-link">{link}</code>}
-          <div className="row-flex together-row">
+          <div className="row-flex edit-together-row">
             <button className="btn" onClick={copy}>
               <Copy />
               {words.people.copy}

@@ -58,7 +58,8 @@ export const cellWords = {
     position: "Position",
     removeFrame: "Frame entfernen",
     "frameUsed(n: number)":
-      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm aus; zuerst diese ändern.",
+      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm aus; " +
+      "zuerst diese ändern.",
     attachedTo: "Befestigt an",
     attachedToCell: "Der Zelle",
     size: "Größe",
@@ -240,6 +241,9 @@ export const cellWords = {
     "removed(name)": "{name} wurde gelöscht. Rückgängig bringt es zurück.",
   },
   parts: {
+    path: "Weg im Programm",
+    "pathSays(mm, s)": "{mm} mm in {s} s",
+    savePath: "Weg speichern",
     opening: "Öffnung",
     title: "Teilebibliothek",
     "search(n: number)": "{n} Teile durchsuchen",
@@ -290,7 +294,15 @@ export const cellWords = {
     colour: "Farbe",
   },
   build: {
-    tools: { select: "Auswählen", move: "Verschieben", turn: "Drehen", scale: "Skalieren", measure: "Messen" },
+    tools: {
+      select: "Auswählen",
+      move: "Verschieben",
+      turn: "Drehen",
+      scale: "Skalieren",
+      measure: "Messen",
+      mate: "Fügen",
+      rig: "Roboter bauen",
+    },
     bar: "Werkzeuge der Zelle",
     snap: "Fangen",
     snapTip: "Bündig mit Boden, Flächen und Mitten anderer Objekte, sonst am Raster. Umschalt schaltet es ab.",

@@ -20,12 +20,13 @@ export const device = {
       "Browser geben Headset, Kamera und Betrieb ohne Netz nur sicheren Seiten: über https öffnen (serve --lan) oder " +
       "als localhost (adb reverse).",
     certificate:
-      "Die Seite arbeitet, bleibt aber ohne Netz nicht erhalten. adb reverse benutzen oder ein Zertifikat, dem dieses " +
-      "Gerät vertraut.",
+      "Die Seite arbeitet, bleibt aber ohne Netz nicht erhalten. adb reverse benutzen oder ein Zertifikat, dem " +
+      "dieses Gerät vertraut.",
     headset: "Die Seite im Browser des Headsets öffnen.",
     camera: "Diese Seite darf nicht nach einer Kamera fragen. Über https in einem Browser öffnen, der eine hat.",
     graphics:
-      "Ohne sie wird die Zelle nicht gezeichnet. Hardwarebeschleunigung einschalten oder einen anderen Browser nehmen.",
+      "Ohne sie wird die Zelle nicht gezeichnet. Hardwarebeschleunigung einschalten oder einen anderen Browser " +
+      "nehmen.",
     socket: "Kein Server antwortet: die Seite arbeitet allein, ohne reale Steuerungen. npx twincell serve starten.",
   },
   latency: "Verzögerung, Stufe für Stufe",

@@ -16,6 +16,8 @@ import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { process } from "./process.ts";
+import { mate, rig } from "./rig.ts";
 import { registration } from "./registration.ts";
 import { scene } from "./scene.ts";
 export { sentences } from "./sentences.ts";
@@ -46,6 +48,9 @@ export const catalogue: Translation<typeof en> = {
   offline,
   own,
   phone,
+  mate,
+  process,
+  rig,
   registration,
   scene,
   text: textWords,

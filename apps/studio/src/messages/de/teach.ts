@@ -4,6 +4,7 @@ import type { teachWords as english } from "../en/teach.ts";
 /** German: jogging, steps, traces, demonstrations, saved poses, and what undo is called. */
 export const teachWords = {
   step: {
+    "asBelt(name, speed)": "So schnell wie {name}: {speed} mm/s",
     "point(n: number)": "Punkt {n}",
     "wait(s: number)": "{s} s warten",
     open: "Greifer öffnen",
@@ -414,9 +415,11 @@ export const teachWords = {
       "noSurface(place)":
         "Unter dem Teil, wo der Greifer öffnete ({place} mm), ist nichts. Palette oder Tisch dorthin stellen.",
       noGrid:
-        "Das Teil ist größer als die Fläche, oder beide Ablagen liegen auf einem Platz. Zwei verschiedene Plätze zeigen.",
+        "Das Teil ist größer als die Fläche, oder beide Ablagen liegen auf einem Platz. " +
+        "Zwei verschiedene Plätze zeigen.",
       "noGridOf(places: number)":
-        "{places, plural, one {# Platz passt} other {# Plätze passen}} nicht in Reihen auf die Fläche. Die Zahl ändern.",
+        "{places, plural, one {# Platz passt} other {# Plätze passen}} nicht in Reihen auf die Fläche. " +
+        "Die Zahl ändern.",
       "irregular(mm)":
         "Das nächste Raster liegt {mm} mm neben dem Gezeigten. Die Palette stattdessen über drei Ecken teachen.",
     },

@@ -14,6 +14,8 @@ import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { process } from "./process.ts";
+import { mate, rig } from "./rig.ts";
 import { registration } from "./registration.ts";
 import { scene } from "./scene.ts";
 import { shellWords } from "./shell.ts";
@@ -43,6 +45,9 @@ export const en = {
   offline,
   own,
   phone,
+  mate,
+  process,
+  rig,
   registration,
   scene,
   text: textWords,

@@ -1,6 +1,7 @@
 /** Teaching: jogging, steps, traces, demonstrations, saved poses, and what undo is called. */
 export const teachWords = {
   step: {
+    "asBelt(name, speed)": "As fast as {name}: {speed} mm/s",
     "point(n: number)": "Point {n}",
     "wait(s: number)": "Wait {s} s",
     open: "Open gripper",

@@ -64,6 +64,8 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
   useFrame(() => {
     const live = now();
     if (live.revision === seen.current) return;
+    // Another robot, by undo say, is there before React has drawn it: until then the angles are not this arm's.
+    if (live.q_rad.length !== robot.arm.joints.length) return;
     seen.current = live.revision;
     linkPoses(robot.arm, live.q_rad, scratch.baseFromLink, scratch.arm);
     for (let i = 0; i < scratch.baseFromLink.length; i++) {

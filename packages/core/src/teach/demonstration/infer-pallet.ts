@@ -69,10 +69,10 @@ const FREE: Speed = { ratio: 0.5 };
 const NEAR: Speed = { mps: 0.1 };
 
 /**
- * A whole palletising program from one or two shown pick-and-places (rows M-54, L-32): what the part is held by, which
- * surface it goes to, the grid that explains the placements best, the way in and out. The cell says what the hand
- * cannot show precisely: how large the part and the surface are and where they stand. Steps of the program, one pallet among
- * them with eight inside:
+ * A whole palletising program from one or two shown pick-and-places (rows M-54, L-32): what the part is held by,
+ * which surface it goes to, the grid that explains the placements best, the way in and out. The cell says what the
+ * hand cannot show precisely: how large the part and the surface are and where they stand. Steps of the program, one
+ * pallet among them with eight inside:
  *
  *   above the part, down, close, up | above the place, down, open, up
  *

@@ -83,6 +83,9 @@ export const saidByChecks: Sentences = {
   "{a} touches {b} at {time}.": "{a} berührt {b} bei {time}.",
   "{what} The controller may round this corner otherwise than planned: use zone 0, or leave more room.":
     "{what} Die Steuerung kann diese Ecke anders verschleifen als geplant: Zone 0 nehmen oder mehr Platz lassen.",
+  "The corner at {time} is not proven clear all over: the arm does not reach all of what a controller may make of it in this posture. Use zone 0, or a smaller one.":
+    "Die Ecke bei {time} ist nicht überall als frei bewiesen: Der Arm erreicht in dieser Stellung nicht alles, was eine " +
+    "Steuerung daraus machen kann. Zone 0 nehmen oder eine kleinere.",
   "Stop at the point: zone 0.": "Am Punkt halten: Zone 0.",
   "{a} would touch {b} at {time}.": "{a} würde {b} bei {time} berühren.",
   "{a} would touch {b}.": "{a} würde {b} berühren.",
@@ -120,6 +123,12 @@ export const saidByChecks: Sentences = {
     "Am meisten verlangt wird von Achse {n}: {value} von {limit} N bei {time} s.",
   "The torques of {robot} cannot be judged: what its joints can give is not published.":
     "Die Drehmomente des {robot} lassen sich nicht beurteilen: Was seine Achsen leisten, ist nicht veröffentlicht.",
+  "The {what} weighs {load} kg; the {robot} lifts at most {limit} kg.":
+    "{what}: {load} kg; der {robot} hebt höchstens {limit} kg.",
+  "The {what} weighs {load} kg; above {limit} kg the {robot} moves at reduced speed.":
+    "{what}: {load} kg; über {limit} kg bewegt sich der {robot} langsamer.",
+  "tool alone": "Werkzeug allein",
+  "tool with “{part}”": "Werkzeug mit „{part}“",
   "The load is {load} kg; the {robot} lifts at most {limit} kg.":
     "Die Last ist {load} kg; der {robot} hebt höchstens {limit} kg.",
   "The load is {load} kg; above {limit} kg the {robot} moves at reduced speed.":

@@ -14,6 +14,11 @@ export const saidByVision: Sentences = {
   "Calibrated from {n} views: {rms} px root mean square, focal length {focal} ± {spread} px.":
     "Kalibriert aus {n} Ansichten: {rms} px quadratisches Mittel, Brennweite {focal} ± {spread} px.",
   "A coordinate of point {n} is not a finite number.": "Eine Koordinate von Punkt {n} ist keine endliche Zahl.",
+  "{least} touched points are the least; {n} were given.":
+    "Mindestens {least} berührte Punkte sind nötig; es waren {n}.",
+  "The base is known to {bound} mm (95 %), from {n} touched points; they are met to {rms} mm (root mean square).":
+    "Die Basis ist auf {bound} mm bekannt (95 %), aus {n} berührten Punkten; sie werden auf {rms} mm getroffen " +
+    "(quadratisches Mittel).",
   "{least} touched points or {poses} driven poses are the least; {n} and {driven} were given.":
     "Mindestens {least} berührte Punkte oder {poses} gefahrene Posen sind nötig; es waren {n} und {driven}.",
   "The points lie in one line to {spread} mm; one must stand aside for the turn about that line.":
