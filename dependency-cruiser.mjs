@@ -14,7 +14,7 @@ const mayInstall = {
   formats: ["meshoptimizer", "saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
   physics: ["@mujoco/mujoco"],
-  project: ["zod"],
+  project: ["zod", "yjs"],
   protocol: ["zod"],
 };
 /** Folders of core, lowest first: each may use those before it and the files beside them that know no folder. */
@@ -36,6 +36,8 @@ const coreLayers = [
   "teach",
   "checks",
 ];
+/** Folders of core that know `spatial` alone, and that no other folder knows. */
+const besideLayers = ["calibration", "vision"];
 const coreFoundation = "(fault|outcomes|random|signals)[.]ts$";
 const any = names => names.join("|");
 const test = "[.]test[.]tsx?$|/testing/";
@@ -59,7 +61,7 @@ export default {
         pathNot: ["^packages/", ...mayInstall[name].map(dep => `node_modules/${dep}`)],
       },
     })),
-    ...[...coreLayers, "calibration"].map((name, i) => ({
+    ...[...coreLayers, ...besideLayers].map((name, i) => ({
       name: `core-${name}-uses-lower-layers`,
       severity: "error",
       comment: `core's folders are layers: ${coreLayers.join(" < ")}`,
@@ -67,7 +69,7 @@ export default {
       to: {
         path: "^packages/core/src/",
         pathNot: [
-          `^packages/core/src/(${any(name === "calibration" ? ["spatial", name] : coreLayers.slice(0, i + 1))})/`,
+          `^packages/core/src/(${any(besideLayers.includes(name) ? ["spatial", name] : coreLayers.slice(0, i + 1))})/`,
           `^packages/core/src/${coreFoundation}`,
         ],
       },

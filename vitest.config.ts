@@ -9,6 +9,8 @@ const REAL_TIME = [
   "apps/cli/src/on-robot.test.ts",
   "apps/cli/src/operations.test.ts",
   "apps/cli/src/vendor-sections.test.ts",
+  "apps/cli/src/first-motion/first-motion.test.ts",
+  "scripts/tutorials.test.ts",
 ];
 
 export default defineConfig({

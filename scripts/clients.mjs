@@ -1,5 +1,6 @@
 // npm run clients: third-party clients and parsers, which tests hold ours against, in a Python environment of their
-// own, and two brokers: mosquitto of the system and nats-server, which Go builds. Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI
+// own; two brokers: mosquitto of the system and nats-server, which Go builds; and Firefox and WebKitGTK beside
+// Chromium. Installed once for each state of scripts/clients/requirements.txt; `npm test` uses them where they are, CI
 // installs them.
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -95,8 +96,31 @@ export function installBrokers() {
   return problems;
 }
 
+/** Browsers beside Chromium, and a display for them: without one they have no WebGL. */
+const BROWSERS = { "firefox-esr": "firefox-esr", WebKitWebDriver: "webkit2gtk-driver", Xvfb: "xvfb" };
+const FOR_WEBGL = ["libegl1", "libgl1-mesa-dri"];
+
+/** Installs the browsers that are missing, from Debian's packages. Returns the sentences of what went wrong. */
+export function installBrowsers() {
+  const there = name => spawnSync("which", [name], { stdio: "ignore" }).status === 0;
+  const missing = () => Object.keys(BROWSERS).filter(name => !there(name));
+  if (missing().length === 0) return [];
+  if (process.getuid?.() === 0 && there("apt-get")) {
+    console.log("Installing Firefox and WebKitGTK (once) …");
+    const env = { ...process.env, DEBIAN_FRONTEND: "noninteractive" };
+    const names = [...Object.values(BROWSERS), ...FOR_WEBGL];
+    spawnSync("apt-get", ["update", "-qq"], { stdio: "inherit" });
+    spawnSync("apt-get", ["install", "-y", "-qq", "--no-install-recommends", ...names], { stdio: "inherit", env });
+  }
+  return missing().map(
+    name => `${name} is not there: install ${BROWSERS[name]} with the packages of this system (Debian's names).`,
+  );
+}
+
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const problems = [installClients(), ...installBrokers()].filter(problem => problem !== undefined);
+  const problems = [installClients(), ...installBrokers(), ...installBrowsers()].filter(
+    problem => problem !== undefined,
+  );
   for (const problem of problems) console.error(problem);
   if (problems.length > 0) process.exit(1);
   console.log(`Third-party clients are in ${folder}.`);

@@ -1,8 +1,9 @@
 // What both commands of the README need first: the packages of the lock file, and a Node that runs TypeScript.
 // Runs on any Node from 20.19, without any package installed; what it starts runs on the Node 24 of the lock file.
-import { spawnSync } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
+import { constants, setPriority } from "node:os";
 import { fileURLToPath } from "node:url";
 
 export const root = fileURLToPath(new URL("..", import.meta.url));
@@ -43,38 +44,48 @@ export function install() {
 /** Builds the studio when a source file is newer than the last build. */
 export function build() {
   const built = `${root}apps/studio/dist/index.html`;
-  if (existsSync(built)) {
-    const since = statSync(built).mtimeMs;
-    const sources = spawnSync(
-      "find",
-      [
-        "packages",
-        "apps/studio/src",
-        "apps/studio/index.html",
-        ...readdirSync(`${root}apps/studio`)
-          .filter(name => /^vite.*\.ts$/.test(name))
-          .map(name => `apps/studio/${name}`),
-        "package-lock.json",
-        "-newermt",
-        new Date(since).toISOString(),
-        "-type",
-        "f",
-        "-not",
-        "-name",
-        "*.test.ts",
-      ],
-      { cwd: root, encoding: "utf8" },
-    );
-    if (sources.status === 0 && sources.stdout.trim() === "") return;
-  }
+  const sources = [
+    "packages",
+    "apps/studio/src",
+    "apps/studio/index.html",
+    ...readdirSync(`${root}apps/studio`)
+      .filter(name => /^vite.*\.ts$/.test(name))
+      .map(name => `apps/studio/${name}`),
+    "package-lock.json",
+  ];
+  if (existsSync(built) && !isNewer(sources, statSync(built).mtimeMs)) return;
   console.log("Building the studio …");
   run(node, ["node_modules/vite/bin/vite.js", "build", "apps/studio", "--logLevel", "warn"]);
 }
 
+/** Whether a file of these paths, tests apart, was changed after a time [ms since 1970]. */
+function isNewer(paths, since_ms) {
+  const found = spawnSync(
+    "find",
+    [...paths, "-newermt", new Date(since_ms).toISOString(), "-type", "f", "-not", "-name", "*.test.ts"],
+    { cwd: root, encoding: "utf8" },
+  );
+  return found.status !== 0 || found.stdout.trim() !== "";
+}
+
+const VITEPRESS = ["node_modules/vitepress/bin/vitepress.js", "build", "docs"];
+
 /** Builds the documentation; a link that leads nowhere ends it. */
 export function buildDocs() {
   console.log("Building the documentation …");
-  run(node, ["node_modules/vitepress/bin/vitepress.js", "build", "docs"]);
+  run(node, VITEPRESS);
+}
+
+/** Builds the documentation with least priority when a page is newer than the last build; the process, or undefined. */
+export function buildDocsBeside() {
+  const built = `${root}docs/.vitepress/dist/index.html`;
+  const sources = [...readdirSync(`${root}docs`).map(name => `docs/${name}`), "docs/.vitepress/config.mjs"];
+  const pages = sources.filter(name => name !== "docs/.vitepress");
+  if (existsSync(built) && !isNewer(pages, statSync(built).mtimeMs)) return undefined;
+  const child = spawn(node, VITEPRESS, { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
+  if (child.pid !== undefined) setPriority(child.pid, constants.priority.PRIORITY_LOW);
+  child.on("error", problem => console.error(`The documentation is not built: ${problem.message}`));
+  return child;
 }
 
 export function run(command, args, options = {}) {

@@ -69,6 +69,9 @@ const MOST_OF_ONE = 100;
 /** Larger files are no program. */
 const MOST_BYTES = 2_000_000;
 
+/** What a fault expects where a program is called that is in none of the files. */
+const MISSING = "a program among the files";
+
 const PROJECTS = new Map<string, readonly TextFile[]>();
 
 interface Outcome {
@@ -78,6 +81,8 @@ interface Outcome {
   readonly sha256: string;
   readonly half: "work" | "count";
   readonly opens: boolean;
+  /** It opens when calls of programs that its repository does not have do nothing. */
+  readonly opensWithout: boolean;
   readonly executes: boolean;
   /** Nothing is left out or taken for granted that only the controller knows. */
   readonly whole: boolean;
@@ -157,12 +162,10 @@ function dialectFor(id: string): Dialect {
   return DIALECTS.find(dialect => dialect.id === id)!;
 }
 
+type Opened = Pick<Outcome, "opens" | "opensWithout" | "executes" | "whole" | "fault">;
+
 /** As it is, with the files of its repository that it needs. */
-function opened(
-  dialect: Dialect,
-  root: string,
-  path: string,
-): Pick<Outcome, "opens" | "executes" | "whole" | "fault" | "ms"> {
+function opened(dialect: Dialect, root: string, path: string): Opened & Pick<Outcome, "ms"> {
   const robot = LIBRARY.find(each => each.id === ROBOTS[dialect.id])!;
   const [repository = ""] = relative(root, path).split("/");
   const files = projectOf(dialect, join(root, repository));
@@ -174,12 +177,7 @@ function opened(
   return { ...answer, ms: Math.round((user + system) / 1000) };
 }
 
-function tryOpen(
-  dialect: Dialect,
-  files: readonly TextFile[],
-  main: string,
-  robot: Robot,
-): Pick<Outcome, "opens" | "executes" | "whole" | "fault"> {
+function tryOpen(dialect: Dialect, files: readonly TextFile[], main: string, robot: Robot): Opened {
   const { text, place } = joinFiles(dialect, files, main);
   const faultOf = (faults: readonly TextFault[]): string => {
     const [first] = faults;
@@ -187,18 +185,25 @@ function tryOpen(
     const file = files[at.file]?.name ?? "";
     return `${file === main ? "" : `${file} `}line ${at.line}: ${first?.sentence}`;
   };
-  const interpreted = dialect.interpret(text, robot);
-  if (interpreted.kind === "not-understood")
-    return { opens: false, executes: false, whole: false, fault: faultOf(interpreted.faults) };
   const executed = executeText(dialect, text, "public", robot, undefined, { maxSteps: 2000 });
   return executed.kind === "executed"
     ? {
         opens: true,
+        opensWithout: true,
         executes: executed.program.steps.some(({ type }) => type === "move"),
         whole: !executed.notExecuted.some(({ expected }) => expected === NOT_GIVEN),
         fault: "",
       }
-    : { opens: false, executes: false, whole: false, fault: faultOf(executed.faults) };
+    : {
+        opens: false,
+        opensWithout:
+          executed.faults.every(({ expected }) => expected === MISSING) &&
+          executeText(dialect, text, "public", robot, undefined, { maxSteps: 2000, missingPrograms: "leave-out" })
+            .kind === "executed",
+        executes: false,
+        whole: false,
+        fault: faultOf(executed.faults),
+      };
 }
 
 /** The files of a language in a repository, named by their paths in it. */
@@ -224,15 +229,16 @@ function* filesIn(path: string): Generator<string> {
 
 function print(all: readonly Outcome[]): void {
   process.stdout.write(
-    "dialect        files   work: open, move, whole / of   count: open, move, whole / of   slowest ms\n",
+    "dialect        files   work: open, without missing calls, move, whole / of   count: the same   slowest ms\n",
   );
   for (const { id } of DIALECTS) {
     const own = all.filter(({ dialect }) => dialect === id);
     if (own.length === 0) continue;
     const share = (half: Outcome["half"]): string => {
       const of = own.filter(each => each.half === half);
-      const count = (which: "opens" | "executes" | "whole"): number => of.filter(each => each[which]).length;
-      return `${count("opens")}, ${count("executes")}, ${count("whole")} / ${of.length}`;
+      const count = (which: "opens" | "opensWithout" | "executes" | "whole"): number =>
+        of.filter(each => each[which]).length;
+      return `${count("opens")}, ${count("opensWithout")}, ${count("executes")}, ${count("whole")} / ${of.length}`;
     };
     process.stdout.write(
       `${id.padEnd(14)} ${String(own.length).padStart(5)}   ${share("work").padStart(28)}   ${share("count").padStart(29)}   ${Math.max(...own.map(({ ms }) => ms))}\n`,
@@ -247,6 +253,12 @@ function print(all: readonly Outcome[]): void {
       process.stdout.write(`${dialect}  ${repository}/${path}  ${fault}\n`);
 }
 
+interface Counted {
+  readonly files: number;
+  readonly open: number;
+  readonly withoutMissingCalls: number;
+}
+
 interface Listed {
   readonly dialect: string;
   readonly repository: string;
@@ -254,6 +266,8 @@ interface Listed {
   readonly sha256: string;
   readonly half: "work" | "count";
   readonly opens: boolean;
+  /** Whether it opens when calls of programs that its repository does not have do nothing. */
+  readonly opensWithout?: boolean;
   /** Whether it then moves the robot: a file of routines that nobody calls does not. */
   readonly executes?: boolean;
   /** Whether nothing was left out or taken for granted that only the controller knows. */
@@ -265,13 +279,14 @@ function write(all: readonly Outcome[]): void {
   const before = JSON.parse(readFileSync(url, "utf8")) as { readonly files: readonly Listed[] };
   const list: readonly Listed[] = [
     ...before.files.filter(({ dialect }) => !isCounted(dialect)),
-    ...all.map(({ dialect, repository, path, sha256, half, opens, executes, whole }) => ({
+    ...all.map(({ dialect, repository, path, sha256, half, opens, opensWithout, executes, whole }) => ({
       dialect,
       repository,
       path,
       sha256,
       half,
       opens,
+      opensWithout,
       executes,
       whole,
     })),
@@ -279,9 +294,13 @@ function write(all: readonly Outcome[]): void {
   const counts = Object.fromEntries(
     DIALECTS.filter(({ id }) => list.some(({ dialect }) => dialect === id)).map(({ id }) => {
       const own = list.filter(({ dialect }) => dialect === id);
-      const half = (which: Listed["half"]): { readonly files: number; readonly open: number } => {
+      const half = (which: Listed["half"]): Counted => {
         const of = own.filter(each => each.half === which);
-        return { files: of.length, open: of.filter(({ opens }) => opens).length };
+        return {
+          files: of.length,
+          open: of.filter(({ opens }) => opens).length,
+          withoutMissingCalls: of.filter(each => each.opensWithout ?? each.opens).length,
+        };
       };
       return [
         id,

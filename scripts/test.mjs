@@ -3,14 +3,14 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
 import { build, install, node, outFolder, root } from "./prepare.mjs";
 import { chromium } from "./chromium.mjs";
-import { clientsPython, installBrokers, installClients } from "./clients.mjs";
+import { clientsPython, installBrokers, installBrowsers, installClients } from "./clients.mjs";
 import { EVIDENCE } from "./evidence/list.mjs";
 import { evidenceStates, stateSentence } from "./evidence/state.mjs";
 
 install();
 // In CI a client that is missing is a failure; elsewhere its tests say that they are skipped.
 const clientsProblems = process.env.CI
-  ? [installClients(), ...installBrokers()].filter(problem => problem !== undefined)
+  ? [installClients(), ...installBrokers(), ...installBrowsers()].filter(problem => problem !== undefined)
   : [];
 const out = outFolder();
 const browser = chromium();

@@ -1,8 +1,9 @@
 import { createReadStream, existsSync } from "node:fs";
-import { cp, mkdir, readFile, rm, writeFile } from "node:fs/promises";
+import { cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { dirname, join, normalize, resolve } from "node:path";
 import type { Plugin } from "vite";
+import { withoutNormalMaps } from "./vite-glb.ts";
 
 /** Controllers and hands that are drawn as themselves; every other one falls back to the generic models. */
 const PROFILES = [
@@ -32,6 +33,15 @@ async function shareModel(folder: string): Promise<void> {
   await rm(join(folder, none.assetPath));
   none.assetPath = right.assetPath;
   await writeFile(file, JSON.stringify(profile));
+}
+
+/** The generic models weigh more than a megabyte each, most of it for what nobody sees. */
+async function lighten(folder: string): Promise<void> {
+  for (const name of await readdir(folder)) {
+    if (!name.endsWith(".glb")) continue;
+    const file = join(folder, name);
+    await writeFile(file, withoutNormalMaps(await readFile(file)));
+  }
 }
 
 /** Serves the models of headset controllers from the studio's own address, in development and in the build. */
@@ -77,6 +87,7 @@ export function controllerProfiles(): Plugin {
       for (const profile of PROFILES) {
         await cp(join(source, profile), join(target, profile), { recursive: true });
         await shareModel(join(target, profile));
+        await lighten(join(target, profile));
       }
     },
   };

@@ -102,6 +102,8 @@ export default defineConfig({
         items: [
           page("start.md"),
           page("tour.md"),
+          ...pagesOf("tutorials"),
+          page("first-motion.md"),
           page("headsets.md"),
           page("glove.md"),
           page("text-programs.md"),

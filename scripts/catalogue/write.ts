@@ -36,6 +36,8 @@ interface Description {
   readonly tip?: string;
   readonly world?: string;
   readonly home_deg?: readonly number[];
+  /** `Payload` of the catalogue. */
+  readonly payload?: { readonly kg: number; readonly from: string };
   /** What the maker's controllers need: `SectionData`. */
   readonly section?: unknown;
   /** Where witness.py cannot compute it. */
@@ -168,12 +170,13 @@ function entryOf(description: Description, folder: string): string {
         inverse(chainOf(robot, description, world).arm.joints[0]!.parentFromJoint as Pose),
       )
     : undefined;
-  const { home_deg, unverified, section } = description;
+  const { home_deg, unverified, section, payload } = description;
   const given = Object.entries(args ?? {}).map(([key, value]) => ` ${key}:=${value}`);
   return [
     "  {",
     `    id: ${JSON.stringify(id)},`,
     `    name: ${JSON.stringify(name)},`,
+    ...(payload === undefined ? [] : [`    payload: ${literal(payload)},`]),
     ...(home_deg === undefined ? [] : [`    home_deg: [${home_deg.join(", ")}],`]),
     ...(unverified === undefined ? [] : ["    unverified: true,"]),
     `    frames: [${JSON.stringify(chain.base)}, ${JSON.stringify(chain.tip)}],`,

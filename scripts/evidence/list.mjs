@@ -12,6 +12,7 @@ const languages = ["packages/languages/src"];
 
 export const EVIDENCE = [
   soak("faults", ["packages/controllers/src"], "--keep"),
+  soak("editors", ["packages/project/src/sharing"]),
   soak("fuzz-dialects", languages),
   soak("fuzz-recordings", ["packages/recording/src"]),
   soak("hostile-requests", ["apps/server/src/api", "apps/server/src/people", "apps/server/src/sockets"]),

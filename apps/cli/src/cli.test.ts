@@ -57,7 +57,7 @@ test("robots lists the whole library, with and without --json: id, name, family,
   );
   expect(robots).toContainEqual(expect.objectContaining({ id: "kuka_lbr_iiwa_14_r820", dof: 7 }));
   expect(robots).toContainEqual(
-    expect.objectContaining({ id: "ur5e", vendor: "Universal Robots", family: "three-parallel", payload_kg: null }),
+    expect.objectContaining({ id: "ur5e", vendor: "Universal Robots", family: "three-parallel", payload_kg: 5 }),
   );
   expect(new Set(robots.map(({ vendor }) => vendor)).size).toBeGreaterThanOrEqual(14);
   expect(robots.filter(robot => "made_up_geometry" in robot).map(robot => robot.id)).toEqual(["lola_rl15_placeholder"]);
@@ -74,7 +74,7 @@ test("robots filters by maker, words, reach and payload; robots of unknown paylo
   expect(lifting.slice(0, firstUnknown).every(({ payload_kg }) => payload_kg! >= 9)).toBe(true);
   expect(lifting.slice(firstUnknown).every(({ payload_kg }) => payload_kg === null)).toBe(true);
   expect(lifting.every(({ reach_m }) => reach_m! >= 1.2)).toBe(true);
-  expect(twincell(["robots", "--find", "ur5e", "--text"]).out).toMatch(/^ur5e .*mm {2}payload unknown\n$/);
+  expect(twincell(["robots", "--find", "ur5e", "--text"]).out).toMatch(/^ur5e .*mm {2}5 kg\n$/);
   const none = twincell(["robots", "--maker", "nobody"]);
   expect([none.code, none.out]).toEqual([1, ""]);
 });

@@ -1,6 +1,15 @@
 export { serve, type Served, type ServeOptions } from "./serve.ts";
 export { servePendant, type ServedPendant } from "./pendant.ts";
-export { addToken, mayUse, readTokens, removeToken, ROLES, tokenReader, type Role } from "./people/tokens.ts";
+export {
+  addCellLink,
+  addToken,
+  mayUse,
+  readTokens,
+  removeToken,
+  ROLES,
+  tokenReader,
+  type Role,
+} from "./people/tokens.ts";
 export { auditFile, openAuditLog, readAudit } from "./people/audit-log.ts";
 export { checkBackup, makeBackup, restoreBackup } from "./files/backup.ts";
 export { lanAddresses } from "./lan.ts";

@@ -1,7 +1,10 @@
+import { X509Certificate } from "node:crypto";
 import type { IncomingMessage, RequestListener, ServerResponse } from "node:http";
 import { askForCode, clientOf, type AccessCode } from "./access.ts";
 import { isApiPath } from "./api/calls.ts";
 import type { apiListener } from "./api/listener.ts";
+import { AUTHORITY_PATH, TRUST_PATH, trustPage } from "./trust-page.ts";
+import type { CellLinks } from "./people/links.ts";
 import type { staticFiles } from "./static-files.ts";
 
 /** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
@@ -41,6 +44,8 @@ export const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): 
 
 /**
  * Hands out files of the built studio to whoever asked for one of these hosts and knows the code, where there is one.
+ *
+ * @param authority that devices may trust, as PEM; it has a page of its own
  */
 export function studioListener(
   files: ReturnType<typeof staticFiles>,
@@ -48,7 +53,10 @@ export function studioListener(
   access: AccessCode | null,
   api: ReturnType<typeof apiListener> | null,
   say: (sentence: string) => void,
+  links: CellLinks | null = null,
+  authority?: string,
 ): RequestListener {
+  const fingerprint = authority === undefined ? "" : new X509Certificate(authority).fingerprint256;
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
       if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
@@ -84,7 +92,15 @@ export function studioListener(
       say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" });
       return;
     }
-    if (access) {
+    const link = url.searchParams.get("link");
+    if (links && link !== null) {
+      const entered = links.enter(link, "encrypted" in request.socket);
+      if (entered)
+        say(303, "", { "set-cookie": entered.cookie, location: `/?watch=${encodeURIComponent(entered.cell)}` });
+      else say(410, "This link has ended or was taken back.\n");
+      return;
+    }
+    if (access && !links?.of(request.headers.cookie)) {
       const entry = access.enter(
         request.headers.cookie,
         url.searchParams.get("code"),
@@ -102,6 +118,15 @@ export function studioListener(
         say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) });
         return;
       }
+    }
+    if (authority !== undefined && path === AUTHORITY_PATH) {
+      say(200, authority, { "content-type": "application/x-x509-ca-cert" });
+      return;
+    }
+    if (authority !== undefined && (path === TRUST_PATH || `${path}/` === TRUST_PATH)) {
+      const page = trustPage(request.headers["accept-language"] ?? "", fingerprint);
+      say(200, page, { "content-type": "text/html; charset=utf-8" });
+      return;
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
     response.writeHead(found.status, {

@@ -108,6 +108,10 @@ test("on the local network: HTTPS, and no page without the access code", async (
   expect(entered.status).toBe(303);
   const cookie = String(entered.headers["set-cookie"]).split(";")[0]!;
   expect((await get("/", { cookie })).body).toContain("studio");
+  // The authority has a page of its own, behind the code as everything is.
+  expect((await get("/trust/")).status).toBe(401);
+  expect((await get("/trust/", { cookie })).body).toContain(served.fingerprint!);
+  expect((await get("/trust/twincell-authority.crt", { cookie })).body).toMatch(/^-----BEGIN CERTIFICATE-----/);
   // The code opens the page it was put behind, and never one elsewhere.
   for (const [path, location] of [
     ["/", "/"],

@@ -1,18 +1,24 @@
+import { X509Certificate } from "node:crypto";
 import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
+import { hostname } from "node:os";
 import { join } from "node:path";
 import { PlainFault } from "@twincell/core";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
+import { documentFolder } from "./api/documents.ts";
 import { apiHandlers } from "./api/handlers.ts";
 import { createJudge } from "./api/judge.ts";
 import { apiListener } from "./api/listener.ts";
 import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
 import { streamRoute } from "./api/stream.ts";
-import { certificate, lanAddresses } from "./lan.ts";
+import { certificate } from "./authority.ts";
+import { lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { editingRoute } from "./editing/route.ts";
+import { createSharedCells } from "./editing/shared-cells.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
 import { readConnections, restoreConnections } from "./stations/connections.ts";
@@ -24,6 +30,7 @@ import { hasAccounts, openAccounts, type Account, type Accounts } from "./people
 import { auditHost } from "./people/audit-host.ts";
 import { openAuditLog } from "./people/audit-log.ts";
 import { createGate } from "./people/gate.ts";
+import { cellLinks } from "./people/links.ts";
 import { createSessions } from "./people/sessions.ts";
 import { tokenReader } from "./people/tokens.ts";
 import { siteFiles } from "./site-files.ts";
@@ -72,6 +79,8 @@ export interface Served {
   /** Addresses for other machines, access code included. */
   readonly lanUrls: readonly string[];
   readonly code: string | null;
+  /** SHA-256 of the authority that a device may trust (see /trust/); null without `lan`. */
+  readonly fingerprint: string | null;
   /** Where the first admin chooses a name and a password; null when there is one, or nobody signs in by name. */
   readonly setUp: string | null;
   /** Where each standard that was asked for is spoken. */
@@ -99,7 +108,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const programs = prepareJobInWorker();
   // Whoever has the code may open controllers: on a network only those that whoever started the server named.
   const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet } = {};
+  const parts: { robots?: ApiRobots; standards?: StartedStandards; fleet?: Fleet; reached?: string } = {};
   const stations = stationHost(
     schedulerWith(nodeScheduler, () => parts.robots?.beat()),
     version,
@@ -123,7 +132,14 @@ export async function serve(options: ServeOptions): Promise<Served> {
     scheduler: nodeScheduler,
     onTrouble: say,
   });
+  const written = (who: string, action: string, detail: string, done: boolean): void => {
+    audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" });
+  };
   const judge = createJudge();
+  const links = cellLinks(tokens);
+  const linkOf = (cookies: string | undefined): string | null => links.of(cookies)?.cell ?? null;
+  const cells = documentFolder(data, "cells");
+  const shared = createSharedCells({ folder: data, cells, scheduler: nodeScheduler, say });
   const counts = new Map<number, number>();
   let ready = true;
   const api = apiListener({
@@ -134,17 +150,23 @@ export async function serve(options: ServeOptions): Promise<Served> {
       judge,
       scheduler: nodeScheduler,
       data: options.data,
+      programs: documentFolder(data, "programs"),
+      cells,
+      shared,
+      now_ms: dated_ms,
+      reached: () => parts.reached ?? "",
+      linkOf,
       requests: { byClass: counts },
       ready: () => ready,
       fleet: () => parts.fleet!,
       training: options.training === true,
       people: accounts && {
         training: options.training === true,
+        linkOf,
         accounts,
         sessions,
         now_s: () => nodeScheduler.now_s(),
-        audit: (who, action, detail, done) =>
-          audit?.write({ who, action, robot: "", detail, outcome: done ? "done" : "refused" }),
+        audit: written,
       },
     }),
     headers: HEADERS,
@@ -154,9 +176,17 @@ export async function serve(options: ServeOptions): Promise<Served> {
     closing: () => !ready,
     observe: (route, method, status, began_ms) => parts.standards?.request({ route, method, status, began_ms }),
   });
-  const listener = studioListener(siteFiles(options.studio, options.docs), hosts, access, api, say);
-  const own = options.lan ? await certificate(options.data, addresses) : null;
-  const server = own ? createHttps({ ...own }, listener) : createHttp(listener);
+  const own = options.lan ? await certificate(options.data, addresses, hostname()) : null;
+  const listener = studioListener(
+    siteFiles(options.studio, options.docs),
+    hosts,
+    access,
+    api,
+    say,
+    links,
+    own?.authority,
+  );
+  const server = own ? createHttps({ key: own.key, cert: own.cert }, listener) : createHttp(listener);
   const states = robotStates(stations, clock_ms, say);
   const logging = logRobots(states, log);
   const end = (): void => {
@@ -195,6 +225,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     // As other machines reach it; a server for this machine alone is reached by none.
     const reached =
       addresses[0] === undefined ? "" : `https://${addresses[0]}:${(server.address() as AddressInfo).port}/`;
+    parts.reached = reached;
     parts.fleet = options.nats ? await joinFleet(context, options.nats, reached) : ownFleet(context, reached);
     standards = parts.standards = await startStandards(context, options.standards ?? {});
   } catch (problem) {
@@ -218,7 +249,18 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations, gate.nameOf, gate.roleOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    [
+      connectionRoute(stations, gate.nameOf, gate.roleOf),
+      streamRoute(stations, nodeScheduler),
+      videoRoute(relay),
+      editingRoute(shared, gate, nodeScheduler, (who, action, detail, done) => {
+        try {
+          written(who, action, detail, done);
+        } catch (problem) {
+          say(`The audit log cannot be written: ${problem instanceof Error ? problem.message : String(problem)}.`);
+        }
+      }),
+    ],
     {
       enters: request => isServed(hosts, request) && gate.socket(request),
       stays: gate.stays,
@@ -232,6 +274,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     robots.stop("server", undefined, false);
     restoring?.close();
     socket.close();
+    await shared.close();
     robots.close();
     await standards.close();
     const moving = (id: string): boolean => states.all.get(id)?.sample?.moving === true;
@@ -257,6 +300,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
+    fingerprint: own ? new X509Certificate(own.authority).fingerprint256 : null,
     standards: standards.addresses,
     close: () => (closing ??= close()),
   };

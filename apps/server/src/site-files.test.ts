@@ -35,3 +35,14 @@ test("without a documentation that is built, /docs/ has nothing and the studio i
   expect((await answer("/docs/", "", undefined)).status).toBe(404);
   expect((await answer("/", "", undefined)).status).toBe(200);
 });
+
+test("a documentation that is still to be built says so in a sentence, and is there as soon as it is", async () => {
+  const later = join(folder, "later");
+  const answer = siteFiles(studio, later);
+  const before = await answer("/docs/start.html", "", undefined);
+  expect([before.status, before.body.toString()]).toEqual([404, expect.stringContaining("not built yet")]);
+  mkdirSync(later);
+  writeFileSync(join(later, "index.html"), "built");
+  expect((await answer("/docs/", "", undefined)).body.toString()).toBe("built");
+  expect((await answer("/docs/nothing.html", "", undefined)).body.toString()).not.toContain("not built yet");
+});

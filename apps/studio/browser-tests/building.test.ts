@@ -1,4 +1,5 @@
-import { edgeTraceCell } from "@twincell/project";
+import { readFileSync } from "node:fs";
+import { edgeTraceCell, pickAndPlaceCell, saveDocument } from "@twincell/project";
 import type { Vector3 } from "@twincell/core";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -374,5 +375,85 @@ test("another robot is chosen by its picture: painted when it comes into view, a
   await page.screenshot({ path: picture("building-robots") });
   await dialog.getByRole("button", { name: /^Use the .*UR10e/ }).click();
   await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document?.robot.id === "ur10e");
+  expect(problems).toEqual([]);
+}, 120_000);
+
+test("N-01, M-56, M-66 the six steps of a cell are told with what is done; a carried work piece has its whole path drawn, which is that of its file; a move goes as fast as the belt", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  const belt = { direction: [1, 0, 0] as Vector3, speed_mps: 0.15 };
+  const cell = pickAndPlaceCell();
+  const conveyor = { ...cell.objects[0]!, id: "conveyor", name: "Conveyor", belt };
+  const { position } = conveyor.worldFromObject;
+  await page.evaluate(
+    text => window.twincell.document.open(text, "pick.json"),
+    saveDocument({
+      ...cell,
+      objects: [
+        ...cell.objects,
+        {
+          ...conveyor,
+          worldFromObject: { ...conveyor.worldFromObject, position: [position[0], position[1] + 3, position[2]] },
+        },
+      ],
+    }),
+  );
+  await page.getByRole("radio", { name: "Cell", exact: true }).click();
+  const process = page.getByRole("region", { name: "Six steps to a cell" });
+  expect(await process.getByRole("listitem").locator("b").allTextContents()).toEqual(
+    ["Objects", "Kinematics", "Interactions", "Scenario", "Run", "Execute and correct"].map((name, i) =>
+      expect.stringContaining(name + (i < 4 ? " done" : "")),
+    ),
+  );
+  await judged(page);
+  expect(await process.locator('[aria-current="step"]').innerText()).toContain("Run");
+  await page.screenshot({ path: picture("building-six-steps") });
+  await process.getByRole("button", { name: "Play" }).click();
+  await process.getByText("5 of 6").waitFor({ timeout: 60_000 });
+  expect(await process.locator('[aria-current="step"]').innerText()).toContain("Execute and correct");
+  await page.evaluate(() => window.twincell.run("play.toggle"));
+
+  const [hold] = await page.evaluate(() => window.twincell.stores.playStore.getState().carried);
+  await page.evaluate(
+    id => window.twincell.stores.selectionStore.setState({ selected: { kind: "object", id } }),
+    hold!.id,
+  );
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "Save the path" }).click(),
+  ]);
+  const rows = readFileSync(await download.path(), "utf8")
+    .split("\n")
+    .slice(1);
+  const line = await page.evaluate(() => {
+    const found = window.twincellScene!.scene.getObjectByName("work piece path") as unknown as {
+      geometry: { attributes: { position: { array: ArrayLike<number> } } };
+    };
+    return Array.from(found.geometry.attributes.position.array);
+  });
+  expect(line.length).toBe(3 * rows.length);
+  expect(rows.length).toBeGreaterThan(100);
+  rows.forEach((row, i) =>
+    row
+      .split(",")
+      .slice(1)
+      .forEach((mm, k) => expect(Number(mm) / 1000).toBeCloseTo(line[3 * i + k]!, 5)),
+  );
+  await page.screenshot({ path: picture("building-work-piece-path") });
+
+  const step = await page.evaluate(() => {
+    const { document } = window.twincell.stores.cellStore.getState();
+    const [program] = document!.programs;
+    const found = "steps" in program! ? program.steps.find(each => each.type === "move" && each.path === "lin") : null;
+    window.twincell.stores.selectionStore.setState({ selected: { kind: "step", id: found!.id } });
+    return found!.id;
+  });
+  await page.getByRole("button", { name: "As fast as Conveyor: 150 mm/s" }).click();
+  const speed = await page.evaluate(id => {
+    const [program] = window.twincell.stores.cellStore.getState().document!.programs;
+    const found = "steps" in program! ? program.steps.find(each => each.id === id) : undefined;
+    return found?.type === "move" ? found.speed : null;
+  }, step);
+  expect(speed).toEqual({ mps: 0.15 });
   expect(problems).toEqual([]);
 }, 120_000);

@@ -28,7 +28,7 @@ const menu = async (page: Page, item: string): Promise<void> => {
 };
 const card = (page: Page, name: string) => page.locator(".start-card").filter({ hasText: name });
 
-test("by clicks alone: a new cell keeps the one before, which is found, opened, put into the trash and back, with its picture", async () => {
+test("M-18 by clicks alone: a new cell keeps the one before, which is found by name and by properties of its models, opened, put into the trash and back, with its picture", async () => {
   const { page, context, problems } = await studio.open({ width: 1280, height: 720 });
   await drawn(page);
   await rename(page, "Bracket weld");
@@ -46,6 +46,12 @@ test("by clicks alone: a new cell keeps the one before, which is found, opened, 
   await search.fill("carton");
   expect(await page.locator(".start-card").count()).toBe(1);
   expect(await card(page, "Bracket weld").textContent()).toContain("in: Carton");
+  // M-18: geometry and physical properties are asked for as well.
+  await search.fill("carton length > 250 height < 300");
+  await card(page, "Bracket weld").getByText("in: Carton").waitFor();
+  expect(await page.locator(".start-card").count()).toBe(1);
+  await search.fill("carton length > 900");
+  await page.getByText("Nothing is called “carton length > 900”.").waitFor();
   await search.fill("no such thing");
   await page.getByText("Nothing is called “no such thing”.").waitFor();
   await page.getByRole("button", { name: "Clear search" }).click();

@@ -1,8 +1,19 @@
 import { existsSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { strToU8, zipSync } from "fflate";
+import { strToU8, unzipSync, zipSync } from "fflate";
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from "vitest";
-import { boxMesh, meshBounds, type TriangleMesh } from "@twincell/core";
+import {
+  boxMesh,
+  cylinderMesh,
+  fromAxisAngle,
+  mergeMeshes,
+  meshBounds,
+  pose,
+  scaleMesh,
+  transformMesh,
+  type TriangleMesh,
+  type Vector3,
+} from "@twincell/core";
 import { writeStl } from "@twincell/formats";
 import { emptyCell, saveDocument, shapeMesh, type ObjectRecord } from "@twincell/project";
 import type {} from "../src/console.ts";
@@ -177,3 +188,242 @@ describe("a file of shapes", () => {
     expect(await objectsOf(page)).toEqual(before);
   });
 });
+
+/** An arm of two axes as a CAD file has it, in millimetres: pivots at (0, 0) upright and at a height of 700 along y. */
+function twoAxisArm(): string {
+  const lying = fromAxisAngle([1, 0, 0], Math.PI / 2);
+  const parts: Readonly<Record<string, TriangleMesh>> = {
+    foot: transformMesh(boxMesh([0.3, 0.3, 0.3]), pose([0, 0, 0.15])),
+    column: transformMesh(cylinderMesh(0.05, 0.4, 48), pose([0, 0, 0.5])),
+    boom: mergeMeshes([
+      { mesh: cylinderMesh(0.08, 0.16, 48), pose: pose([0, 0, 0.7], lying) },
+      { mesh: boxMesh([0.4, 0.08, 0.08]), pose: pose([0.25, 0, 0.7]) },
+    ]),
+  };
+  const lines: string[] = [];
+  let first = 1;
+  for (const [name, mesh] of Object.entries(parts)) {
+    const { positions, indices } = scaleMesh(mesh, 1000);
+    lines.push(`o ${name}`);
+    for (let i = 0; i < positions.length; i += 3) lines.push(`v ${[...positions.slice(i, i + 3)].join(" ")}`);
+    for (let i = 0; i < indices.length; i += 3)
+      lines.push(`f ${[...indices.slice(i, i + 3)].map(vertex => vertex + first).join(" ")}`);
+    first += positions.length / 3;
+  }
+  return `${lines.join("\n")}\n`;
+}
+/** Moves over these points of the world until one lies on that kind of surface of that object, and clicks there. */
+async function pick(page: Page, object: string, kind: string, points: readonly Vector3[]): Promise<void> {
+  for (const point of points) {
+    const at = await page.evaluate(where => window.twincellScene!.project(where), point);
+    await page.mouse.move(at.x - 2, at.y - 1);
+    await page.evaluate(() => window.twincell.stores.surfaceStore.setState({ hovered: null }));
+    await page.mouse.move(at.x, at.y);
+    const found = await page
+      .waitForFunction(() => window.twincell.stores.surfaceStore.getState().hovered, null, { timeout: 4000 })
+      .then(handle => handle.jsonValue())
+      .catch(() => null);
+    if (found?.object !== object || found.feature.kind !== kind) continue;
+    await page.mouse.click(at.x, at.y);
+    return;
+  }
+  throw new Error(`No ${kind} of ${object} is under any of the points.`);
+}
+/** Points round an upright or lying cylinder: some of them face the camera. */
+const around = ([x, y, z]: Vector3, radius_m: number, lies: boolean): Vector3[] =>
+  Array.from({ length: 8 }, (_, i): Vector3 => {
+    const angle = ((i - 2) * Math.PI) / 4 + 0.065;
+    const [a, b] = [radius_m * 0.998 * Math.cos(angle), radius_m * 0.998 * Math.sin(angle)];
+    return lies ? [x + a, y, z + b] : [x + a, y + b, z];
+  });
+const cellMode = (page: Page): Promise<void> =>
+  page
+    .getByRole("tab", { name: "Cell", exact: true })
+    .or(page.getByRole("radio", { name: "Cell", exact: true }))
+    .first()
+    .click();
+
+test("T-52, N-05 two shafts of an imported assembly are clicked in order: the chain stands with its limits, is saved as URDF with inertias, and becomes the robot of the cell", async () => {
+  const { page } = open;
+  await imported(page, [["arm.obj", twoAxisArm()]]);
+  await page.keyboard.press("Escape");
+  await cellMode(page);
+  const [foot, column, boom] = await page.evaluate(() =>
+    ["foot", "column", "boom"].map(
+      id =>
+        [
+          ...window.twincell.stores.cellStore.getState().document!.objects.find(object => object.id === id)!
+            .worldFromObject.position,
+        ] as Vector3,
+    ),
+  );
+  const [x, y] = foot!;
+  expect(column![2]).toBeCloseTo(0.3, 6);
+  expect(boom![2]).toBeCloseTo(0.62, 6);
+  await page.getByRole("button", { name: "Make a robot" }).click();
+  const panel = page.getByRole("region", { name: "Make a robot" });
+  await pick(page, "column", "cylinder", around([x, y, 0.42], 0.05, false));
+  await pick(page, "boom", "cylinder", around([x, y - 0.06, 0.7], 0.08, true));
+  await panel.getByRole("textbox", { name: "Upper limit, joint 2" }).fill("75");
+  await page.keyboard.press("Enter");
+  await panel.getByRole("textbox", { name: "Lower limit, joint 2" }).fill("-60");
+  await page.keyboard.press("Enter");
+  await panel.getByRole("button", { name: "Pick the flange" }).click();
+  await pick(page, "boom", "plane", [
+    [x + 0.45, y - 0.02, 0.68],
+    [x + 0.45, y + 0.02, 0.72],
+    [x + 0.4, y - 0.02, 0.74],
+  ]);
+  expect(await panel.getByRole("combobox", { name: "Link of boom" }).textContent()).toContain("Link 2");
+  expect(await panel.getByRole("combobox", { name: "Link of foot" }).textContent()).toContain("Base");
+  const picked = await page.evaluate(() => window.twincell.stores.rigStore.getState().flange!.at_m);
+  await page.mouse.move(640, 10);
+  await page.screenshot({ path: picture("rig-axes") });
+
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    panel.getByRole("button", { name: "Save URDF" }).click(),
+  ]);
+  const packed = unzipSync(readFileSync(await download.path()));
+  const urdf = new TextDecoder().decode(packed["arm/urdf/arm.urdf"]);
+  expect(Object.keys(packed).filter(path => path.endsWith(".stl"))).toHaveLength(3);
+  expect(urdf.match(/<inertia /g)).toHaveLength(2);
+  expect(urdf).toContain('lower="-1.0471975511965976" upper="1.3089969389957472"');
+
+  await panel.getByRole("button", { name: "Use as the robot of this cell" }).click();
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document!.robot.id.startsWith("arm_"));
+  const cell = await page.evaluate(() => {
+    const { document } = window.twincell.stores.cellStore.getState();
+    window.twincell.live.showJoints([Math.PI / 2, 0.5]);
+    return { objects: document!.objects.length, base: document!.robot.worldFromBase.position };
+  });
+  expect(cell.objects).toBe(0);
+  [x, y, 0].forEach((value, k) => expect(cell.base[k]).toBeCloseTo(value, 6));
+  // The picked flange, a quarter turn about the column, and 0.5 rad about the shoulder 700 mm up.
+  const tip = await page.evaluate(() => window.twincell.live.now().worldFromTcp.position);
+  const [dx, dy, dz] = picked.map((value, k) => value - [x, y, 0.7][k]!) as Vector3;
+  expect(tip[0]).toBeCloseTo(x - dy, 5);
+  expect(tip[1] - y).toBeCloseTo(dx * Math.cos(0.5) + dz * Math.sin(0.5), 5);
+  expect(tip[2] - 0.7).toBeCloseTo(dz * Math.cos(0.5) - dx * Math.sin(0.5), 5);
+  await page.screenshot({ path: picture("rig-robot") });
+  await page.evaluate(() => window.twincell.run("edit.undo"));
+  expect(await objectsOf(page)).toHaveLength(3);
+  expect(open.problems).toEqual([]);
+}, 120_000);
+
+test("a block is put face to face on a table and pushed off by a typed gap, and a pin axis to axis into a bore, one undo each", async () => {
+  const { page } = open;
+  const object = (id: string, at: Vector3, shape: ObjectRecord["shape"]): ObjectRecord => ({
+    id,
+    name: id,
+    role: "fixture",
+    worldFromObject: pose(at, fromAxisAngle([0, 0, 1], 0.3)),
+    shape,
+    color: "#7a8a94",
+  });
+  const cell = emptyCell();
+  await page.evaluate(
+    text => window.twincell.document.open(text, "mates.json"),
+    saveDocument({
+      ...cell,
+      objects: [
+        object("table", [0.7, 0, 0.2], { kind: "box", size_m: [0.5, 0.5, 0.4] }),
+        object("block", [0.7, -0.7, 0.1], { kind: "box", size_m: [0.2, 0.2, 0.2] }),
+        object("post", [0.7, 0.7, 0], { kind: "cylinder", radius_m: 0.06, height_m: 0.5 }),
+        object("pin", [1.2, 0.5, 0], { kind: "cylinder", radius_m: 0.05, height_m: 0.3 }),
+      ],
+    }),
+  );
+  await cellMode(page);
+  await page.getByRole("button", { name: "Mate", exact: true }).click();
+  const card = page.getByRole("region", { name: "Mate" });
+  await card.getByText("Click a face, bore or shaft of the object that moves.").waitFor();
+  const placeOf = (id: string): Promise<ObjectRecord["worldFromObject"]> =>
+    page.evaluate(
+      which =>
+        window.twincell.stores.cellStore.getState().document!.objects.find(each => each.id === which)!.worldFromObject,
+      id,
+    );
+  // The side of the block goes to the top of the table: it comes to lie on that side.
+  const out = [-Math.sin(0.3), Math.cos(0.3)] as const;
+  const sides = [1, -1].map((sign): Vector3 => [0.7 - sign * out[0] * 0.1, -0.7 - sign * out[1] * 0.1, 0.1]);
+  await pick(page, "block", "plane", sides);
+  await pick(page, "table", "plane", [[0.7, 0, 0.4]]);
+  await card.getByText("Face to face").waitFor();
+  expect((await placeOf("block")).position[2]).toBeCloseTo(0.5, 6);
+  await page.mouse.move(640, 10);
+  await page.screenshot({ path: picture("mate-faces") });
+  await card.getByRole("textbox", { name: "Gap" }).fill("30");
+  await page.keyboard.press("Enter");
+  expect((await placeOf("block")).position[2]).toBeCloseTo(0.53, 6);
+
+  await card.getByRole("button", { name: "Mate another" }).click();
+  await pick(page, "pin", "cylinder", around([1.2, 0.5, 0.15], 0.05, false));
+  await pick(page, "post", "cylinder", around([0.7, 0.7, 0.4], 0.06, false));
+  await card.getByText("Axis to axis").waitFor();
+  const pin = await placeOf("pin");
+  [0.7, 0.7, 0].forEach((value, k) => expect(pin.position[k]).toBeCloseTo(value, 6));
+  await page.evaluate(() => window.twincell.run("edit.undo"));
+  expect((await placeOf("pin")).position[0]).toBeCloseTo(1.2, 9);
+  expect(open.problems).toEqual([]);
+}, 120_000);
+
+test("M-06, M-08 an imported STL is moved, turned and made twice as large by typed numbers, is drawn so, and each is one undo", async () => {
+  const { page } = open;
+  const [part] = await imported(page, [["bar.stl", writeStl(boxMesh([400, 100, 50]))]]);
+  await page.keyboard.press("Escape");
+  await cellMode(page);
+  const type = async (name: string, value: string): Promise<void> => {
+    const field = page.getByRole("textbox", { name }).first();
+    await field.fill(value);
+    await field.press("Enter");
+  };
+  /** Waits until what is drawn has these sides and, where asked, its middle at that x [m]. */
+  const drawnAs = (size: readonly number[], x_m?: number): Promise<unknown> =>
+    page.waitForFunction(
+      ([id, wanted, middle]) => {
+        const lower = [Infinity, Infinity, Infinity];
+        const upper = [-Infinity, -Infinity, -Infinity];
+        window.twincellScene!.scene.getObjectByName(id)?.traverse(each => {
+          const mesh = each as unknown as {
+            isMesh?: boolean;
+            geometry: { attributes: { position: { count: number; array: ArrayLike<number> } } };
+            matrixWorld: { elements: ArrayLike<number> };
+          };
+          if (!mesh.isMesh) return;
+          const { array, count } = mesh.geometry.attributes.position;
+          const m = mesh.matrixWorld.elements;
+          for (let i = 0; i < count; i++) {
+            const at = [0, 1, 2].map(
+              k => m[k]! * array[3 * i]! + m[4 + k]! * array[3 * i + 1]! + m[8 + k]! * array[3 * i + 2]! + m[12 + k]!,
+            );
+            // The scene is y-up.
+            [at[0]!, -at[2]!, at[1]!].forEach((value, k) => {
+              lower[k] = Math.min(lower[k]!, value);
+              upper[k] = Math.max(upper[k]!, value);
+            });
+          }
+        });
+        return (
+          wanted.every((side, k) => Math.abs(upper[k]! - lower[k]! - side) < 1e-4) &&
+          (middle === undefined || Math.abs((upper[0]! + lower[0]!) / 2 - middle) < 1e-4)
+        );
+      },
+      [part!.id, size, x_m] as const,
+      { timeout: 30_000, polling: 100 },
+    );
+  await drawnAs([0.4, 0.1, 0.05]);
+  await type("Position X", "900");
+  await type("Rotation Rz", "90");
+  await drawnAs([0.1, 0.4, 0.05], 0.9);
+  await type("Scale factor", "2");
+  await drawnAs([0.2, 0.8, 0.1], 0.9);
+  for (const size of [
+    [0.1, 0.4, 0.05],
+    [0.4, 0.1, 0.05],
+  ]) {
+    await page.evaluate(() => window.twincell.run("edit.undo"));
+    await drawnAs(size);
+  }
+  expect(open.problems).toEqual([]);
+}, 120_000);

@@ -153,15 +153,18 @@ test("a newer version waits for the person, takes nothing that was made, and fet
   await kept(page);
   await page.reload();
   await drawn(page);
+  await kept(page);
   const worker = readFileSync(join(web.folder, "sw.js"), "utf8");
-  writeFileSync(join(web.folder, "sw.js"), worker.replace(/const VERSION = "[^"]*"/, 'const VERSION = "newer"'));
+  const version = `newer-${Date.now()}`;
+  writeFileSync(join(web.folder, "sw.js"), worker.replace(/const VERSION = "[^"]*"/, `const VERSION = "${version}"`));
   web.asked.length = 0;
   await page.evaluate(async () => {
     await (await navigator.serviceWorker.getRegistration())!.update();
   });
   const bar = page.locator(".update-bar");
   await bar.waitFor({ timeout: 60_000 });
-  expect(web.asked).toEqual([`${FOLDER}sw.js`]);
+  // The browser also looks for a newer worker by itself after a page was opened: how often is its own affair.
+  expect([...new Set(web.asked)]).toEqual([`${FOLDER}sw.js`]);
   // Changed a moment before: not on the disk yet.
   await record(page);
   await page.screenshot({ path: picture("offline-update") });
@@ -171,6 +174,6 @@ test("a newer version waits for the person, takes nothing that was made, and fet
   ]);
   await drawn(page);
   expect(await points(page)).toBe(1);
-  expect(await page.evaluate(() => caches.keys())).toEqual(["twincell-newer"]);
+  expect(await page.evaluate(() => caches.keys())).toEqual([`twincell-${version}`]);
   await context.close();
 }, 600_000);

@@ -1,6 +1,7 @@
 import { distance, type Vector3 } from "@twincell/core";
-import type { CDPSession, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { Fingers } from "./support/fingers.ts";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
@@ -11,29 +12,6 @@ afterAll(async () => {
   await studio.stop();
 });
 
-/** Fingers on the glass: each has a number, and all that touch are told of together. */
-class Fingers {
-  readonly #session: CDPSession;
-  readonly #down = new Map<number, { readonly x: number; readonly y: number }>();
-  constructor(session: CDPSession) {
-    this.#session = session;
-  }
-  async put(id: number, x: number, y: number): Promise<void> {
-    const type = this.#down.has(id) ? "touchMove" : "touchStart";
-    this.#down.set(id, { x, y });
-    await this.#tell(type);
-  }
-  async lift(id: number): Promise<void> {
-    this.#down.delete(id);
-    await this.#tell("touchEnd");
-  }
-  async #tell(type: "touchStart" | "touchMove" | "touchEnd"): Promise<void> {
-    await this.#session.send("Input.dispatchTouchEvent", {
-      type,
-      touchPoints: [...this.#down].map(([id, { x, y }]) => ({ id, x, y })),
-    });
-  }
-}
 const tcp = (page: Page): Promise<Vector3> =>
   page.evaluate(() => {
     const [x, y, z] = window.twincell.live.now().worldFromTcp.position;

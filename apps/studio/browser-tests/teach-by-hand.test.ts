@@ -74,9 +74,13 @@ test("N-38 a pendant key moves while it is held, along its own axis only, and st
   expect(problems).toEqual([]);
 });
 
-test("N-47 N-48 N-49 a contact sounds once and paints what is touched, and both end when the tool leaves", async () => {
+test("N-47 N-48 N-49 X-53 in the cell with table and carton a contact sounds once and paints what is touched, and both end when the tool leaves", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
+  const ids = await page.evaluate(() =>
+    window.twincell.stores.cellStore.getState().document!.objects.map(({ id }) => id),
+  );
+  expect(ids).toEqual(expect.arrayContaining(["table", "carton"]));
   await stand(page, [0.6, 0, 0.56]);
   expect(await page.evaluate(() => [...window.twincell.live.touching()])).toEqual([]);
   await hold(page, "Jog Z down", () => window.twincell.live.touching().has("carton"));
@@ -161,5 +165,139 @@ test("L-28 L-30 the ring at the tool is dragged with the mouse; the tool follows
   const aside = (await tcp(page)) as Vector3;
   expect(aside[2]).toBeCloseTo(after[2], 6);
   expect(Math.hypot(aside[0] - after[0], aside[1] - after[1])).toBeGreaterThan(0.01);
+  expect(problems).toEqual([]);
+});
+
+/** Frames of the page from each press that follows to the first in which the robot stands elsewhere. */
+const watchPresses = (page: Page): Promise<void> =>
+  page.evaluate(() => {
+    const late: number[] = [];
+    let frame = 0;
+    let pressed = -1;
+    let before: readonly number[] = [];
+    const press = (event: Event): void => {
+      if (event instanceof KeyboardEvent && event.repeat) return;
+      pressed = frame;
+      before = [...window.twincell.live.now().q_rad];
+    };
+    addEventListener("pointerdown", press, true);
+    addEventListener("keydown", press, true);
+    const look = (): void => {
+      frame++;
+      const { q_rad } = window.twincell.live.now();
+      if (pressed >= 0 && before.some((angle, j) => angle !== q_rad[j])) {
+        late.push(frame - pressed);
+        pressed = -1;
+      }
+      requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+    window.framesLate = late;
+  });
+declare global {
+  interface Window {
+    framesLate: number[];
+  }
+}
+
+test("L-27 L-63 L-66 M-44 the pendant and the keyboard move the TCP within one frame; LIN is a straight segment; a saved pose is gone to", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await stand(page, [0.6, 0.1, 0.8]);
+  await page.getByRole("button", { name: "PTP", exact: true }).first().click();
+  await watchPresses(page);
+  const presses = (count: number): Promise<unknown> =>
+    page.waitForFunction(wanted => window.framesLate.length >= wanted, count, { polling: 20 });
+  const key = (await page.getByRole("button", { name: "Jog Y down", exact: true }).boundingBox())!;
+  for (let i = 1; i <= 5; i++) {
+    await page.mouse.move(key.x + key.width / 2, key.y + key.height / 2);
+    await page.mouse.down();
+    await presses(2 * i - 1);
+    await page.mouse.up();
+    await page.keyboard.down("s");
+    await presses(2 * i);
+    await page.keyboard.up("s");
+    await frames(page, 3);
+  }
+  expect(await page.evaluate(() => window.framesLate)).toEqual(Array.from({ length: 10 }, () => 1));
+  await hold(page, "Jog Y down", () => window.twincell.live.now().worldFromTcp.position[1] < -0.1);
+  const end = await tcp(page);
+  expect(end[0]!).toBeCloseTo(0.6, 6);
+  expect(end[2]!).toBeCloseTo(0.8, 6);
+  await page.getByRole("button", { name: "LIN", exact: true }).first().click();
+  await page.getByRole("button", { name: "Pose", exact: true }).first().click();
+  await page.waitForFunction(
+    () => {
+      const { stale, path } = window.twincell.stores.playStore.getState();
+      return !stale && path.length >= 1;
+    },
+    null,
+    { polling: 100 },
+  );
+  const segment = await page.evaluate(() => {
+    const { document } = window.twincell.stores.cellStore.getState();
+    const [program] = document!.programs;
+    const lin =
+      program?.format === "twincell.program"
+        ? program.steps.find(s => s.type === "move" && s.path === "lin")
+        : undefined;
+    return window.twincell.stores.playStore
+      .getState()
+      .path.filter(piece => piece.step === lin?.id)
+      .flatMap(piece => piece.points.map(point => [...point]));
+  });
+  expect(segment.length).toBeGreaterThan(5);
+  for (const [x, , z] of segment) expect(Math.hypot(x! - 0.6, z! - 0.8)).toBeLessThan(1e-5);
+  expect(Math.abs(segment.at(-1)![1]! - end[1]!)).toBeLessThan(1e-5);
+
+  await hold(page, "Jog Z up", () => window.twincell.live.now().worldFromTcp.position[2] > 0.85);
+  await page.getByRole("button", { name: /^Go to “/ }).click();
+  await page.waitForFunction(
+    ([x, y, z]) => {
+      const { position } = window.twincell.live.now().worldFromTcp;
+      return Math.hypot(position[0] - x!, position[1] - y!, position[2] - z!) < 1e-5;
+    },
+    end,
+    { polling: 100 },
+  );
+  await page.screenshot({ path: picture("lead-through") });
+  expect(problems).toEqual([]);
+});
+
+test("X-18 X-29 a visible target sphere is moved by the pendant, the arm follows; out of reach it is red, with the distance", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await stand(page, [0.6, 0, 0.8]);
+  const sphere = (): Promise<{ position: number[]; red: boolean } | null> =>
+    page.evaluate(() => {
+      const found = window.twincellScene!.scene.getObjectByName("target-sphere") as unknown as
+        | { position: { x: number; y: number; z: number }; material: { color: { r: number; g: number } } }
+        | undefined;
+      if (!found) return null;
+      const { position, material } = found;
+      return { position: [position.x, position.y, position.z], red: material.color.r > 2 * material.color.g };
+    });
+  expect(await sphere()).toBeNull();
+  await page.getByRole("button", { name: "Follow a target" }).click();
+  await hold(page, "Jog Y up", () => window.twincell.live.now().worldFromTcp.position[1] > 0.05);
+  await frames(page, 10);
+  const there = (await sphere())!;
+  const tip = await tcp(page);
+  expect(Math.hypot(...there.position.map((value, i) => value - tip[i]!))).toBeLessThan(1e-5);
+  await page.getByText("The tool is at the target.").waitFor();
+  await page.evaluate(() => window.twincell.stores.jogStore.setState({ speed: 1 }));
+  const far = page.getByText(/The tool stays [\d.]{4,} mm away\./);
+  const key = (await page.getByRole("button", { name: "Jog X up", exact: true }).boundingBox())!;
+  await page.mouse.move(key.x + key.width / 2, key.y + key.height / 2);
+  await page.mouse.down();
+  await far.waitFor({ timeout: 60_000 });
+  await page.mouse.up();
+  await frames(page, 5);
+  const out = (await sphere())!;
+  const stays = await tcp(page);
+  const off_mm = Math.hypot(...out.position.map((value, i) => value - stays[i]!)) * 1000;
+  expect(out.red).toBe(true);
+  expect(parseFloat((await far.innerText()).match(/[\d.]+/)![0])).toBeCloseTo(off_mm, 0);
+  await page.screenshot({ path: picture("target-sphere") });
   expect(problems).toEqual([]);
 });

@@ -130,3 +130,32 @@ test("L-35 M-61 M-62 L-64 the tool's speed stands under its blocks, and a lesson
   expect(await readFile((await (await saved).path())!, "utf8")).toContain("Attempt 2 is the best.");
   expect(problems).toEqual([]);
 });
+
+test("X-45 the error of the drives over the speed is a plot, and grows with the speed", async () => {
+  const { page, problems } = await studio.open({ width: 1440, height: 900 });
+  await drawn(page);
+  await page.evaluate(() => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.run("file.new");
+    window.twincell.document.commit("robot", cell => ({ ...cell, robot: { ...cell.robot, id: "ur10e" } }));
+  });
+  for (const turn of [0, 0.8]) {
+    await stand(page, [turn, -1.2, 1.9, -1.8, -1.4, 0.5]);
+    await page.getByRole("button", { name: "PTP", exact: true }).first().click();
+  }
+  await page.waitForFunction(() => {
+    const { stale, plan } = window.twincell.stores.playStore.getState();
+    return !stale && (plan?.duration_s ?? 0) > 0;
+  });
+  await page.getByRole("button", { name: "Plots" }).click();
+  await page.getByRole("radio", { name: "Accuracy" }).click();
+  const worst = page.locator(".u-legend .u-series", { hasText: "Largest error" }).locator(".u-value");
+  await worst.waitFor({ timeout: 60_000 });
+  await expect.poll(async () => parseFloat(await worst.innerText())).toBeGreaterThan(1);
+  const full_mm = parseFloat(await worst.innerText());
+  const plot = (await page.locator(".u-over").boundingBox())!;
+  await page.mouse.move(plot.x + (10 / 105) * plot.width, plot.y + plot.height / 2);
+  await expect.poll(async () => parseFloat(await worst.innerText())).toBeLessThan(0.2 * full_mm);
+  await page.screenshot({ path: picture("accuracy") });
+  expect(problems).toEqual([]);
+});

@@ -2,6 +2,7 @@ import { Tooltip } from "radix-ui";
 import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Arrange } from "./features/build/Arrange.tsx";
+import { MateCard } from "./features/build/MateCard.tsx";
 import { MeasureCard } from "./features/build/MeasureCard.tsx";
 import { ToolBar } from "./features/build/ToolBar.tsx";
 import { Check } from "./features/check/Check.tsx";
@@ -17,6 +18,7 @@ import { Notices } from "./features/notices/Notices.tsx";
 import { UpdateBar } from "./features/offline/UpdateBar.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
 import { Physics } from "./features/physics/Physics.tsx";
+import { Process } from "./features/process/Process.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
@@ -30,10 +32,12 @@ import { SignIn } from "./features/people/SignIn.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
+import { buildStore } from "./stores/build.ts";
 import { cellStore } from "./stores/cell.ts";
 import { textOf, theProgram } from "./stores/document.ts";
 import { lessonStore } from "./stores/lesson.ts";
 import { findStep } from "./stores/program.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { selectionStore, type Thing } from "./stores/selection.ts";
 import { textStore } from "./stores/text.ts";
 import { traceStore } from "./stores/trace.ts";
@@ -45,11 +49,13 @@ import "./app.css";
 
 const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
+const Together = lazy(() => import("./features/together/Together.tsx"));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
 const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
 const GloveDialog = lazy(() => import("./features/glove/GloveDialog.tsx"));
+const Rig = lazy(() => import("./features/build/Rig.tsx").then(part => ({ default: part.Rig })));
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
@@ -59,6 +65,9 @@ const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const People = lazy(() => import("./features/people/People.tsx"));
 const Fleet = lazy(() => import("./features/fleet/Fleet.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
+const MarkerPanel = lazy(() => import("./features/marker/MarkerPanel.tsx"));
+const DeviceCheck = lazy(() => import("./features/device/DeviceCheck.tsx"));
+const RegistrationDialog = lazy(() => import("./features/registration/RegistrationDialog.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
@@ -77,6 +86,7 @@ export function App() {
   const building = useStore(viewStore, state => state.mode === "cell");
   const learning = useStore(lessonStore, state => state.lesson !== null);
   const layout = useStore(textStore, state => state.layout);
+  const onMarker = useStore(markerViewStore, state => state.on);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
@@ -129,10 +139,11 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
-          {building && !phone && (
+          {building && !phone && !onMarker && (
             <>
               <ToolBar />
               <MeasureCard />
+              <MateCard />
             </>
           )}
           {text !== null && teaching && !phone && (
@@ -151,6 +162,7 @@ export function App() {
           <Physics />
           <Suspense>
             <VideoPanels />
+            {onMarker && <MarkerPanel />}
           </Suspense>
           {!phone && !building && !learning && <Coach />}
           <LessonCard />
@@ -210,7 +222,10 @@ export function App() {
         <Suspense>
           <Cameras />
           <People />
+          <Together />
           <Fleet />
+          <RegistrationDialog />
+          <DeviceCheck />
         </Suspense>
         <Files />
         <LessonFile />
@@ -241,12 +256,19 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  const rigging = useStore(buildStore, state => state.tool === "rig");
+  const nothing = useStore(selectionStore, state => state.selected === null);
   const first = useStore(selectionStore, ({ selected }) => isShownFirst(selected));
   switch (mode) {
     case "cell":
-      return (
+      return rigging ? (
+        <Suspense>
+          <Rig />
+        </Suspense>
+      ) : (
         <>
           <Inspector />
+          {nothing && <Process />}
           <Arrange />
         </>
       );

@@ -82,6 +82,9 @@ export function boot(): void {
       notify("warn", words.own.notLoaded(problem instanceof Error ? problem.message : String(problem))),
     )
     .then(() => openKept(browserStore, library))
+    .then(() => joinFromAddress())
+    // The cell of this browser is open all the same.
+    .catch((problem: unknown) => notify("bad", problem instanceof Error ? problem.message : String(problem)))
     .then(() => import("./runtime/robot/cell-control.ts"))
     .then(({ startCellControl }) => {
       startCellControl();
@@ -106,6 +109,16 @@ export function boot(): void {
     requestAnimationFrame(beat);
   };
   requestAnimationFrame(beat);
+}
+
+/** A page whose address names a cell of its server opens it: `?cell=` to edit it, `?watch=` by a read-only link. */
+async function joinFromAddress(): Promise<void> {
+  const { searchParams } = new URL(location.href);
+  const watch = searchParams.get("watch");
+  const cell = watch ?? searchParams.get("cell");
+  if (cell === null) return;
+  const { joinCell } = await import("./runtime/together.ts");
+  await joinCell(cell, browserStore, watch !== null);
 }
 
 /** Resolves when everything that was done is on the disk; rejects where it cannot be kept. */

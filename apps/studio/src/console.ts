@@ -6,6 +6,7 @@ import { physicsNow } from "./runtime/physics/physics.ts";
 import { playheadNow } from "./runtime/history/playhead.ts";
 import { shownRobot } from "./runtime/robot/drawn-robots.ts";
 import { orientationPresetStore } from "./stores/aids.ts";
+import { buildStore } from "./stores/build.ts";
 import { bindingStore } from "./stores/bindings.ts";
 import { cellStore } from "./stores/cell.ts";
 import { commandStore, runCommand } from "./stores/commands.ts";
@@ -18,6 +19,8 @@ import { headsetStore } from "./stores/headset.ts";
 import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { lessonStore } from "./stores/lesson.ts";
+import { mateStore } from "./stores/mate.ts";
+import { markerViewStore } from "./stores/marker-view.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { offlineStore } from "./stores/offline.ts";
@@ -26,13 +29,16 @@ import { playStore } from "./stores/play.ts";
 import { foreignStore } from "./stores/foreign.ts";
 import { languageStore } from "./stores/languages.ts";
 import { postStore } from "./stores/post.ts";
+import { rigStore } from "./stores/rig.ts";
 import { roomStore } from "./stores/room.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
+import { surfaceStore } from "./stores/surface.ts";
 import { textStore } from "./stores/text.ts";
+import { togetherStore } from "./stores/together.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -43,6 +49,7 @@ const twincell = {
   stores: {
     aidStore: orientationPresetStore,
     bindingStore,
+    buildStore,
     cellStore,
     commandStore,
     connectionStore,
@@ -55,17 +62,22 @@ const twincell = {
     jogStore,
     languageStore,
     lessonStore,
+    mateStore,
+    markerViewStore,
     noticeStore,
     offlineStore,
     physicsStore,
     playStore,
     postStore,
+    rigStore,
     roomStore,
     selectionStore,
     shapeStore,
     soundStore,
     stationStore,
+    surfaceStore,
     textStore,
+    togetherStore,
     traceStore,
     videoStore,
     viewStore,

@@ -104,6 +104,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** Name of the cell that a read-only link lets in to; null without one. */
+      readonly link: unknown;
       /** A server for training: it opens virtual controllers and reaches no real robot. */
       readonly training: boolean;
     };
@@ -125,6 +127,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** Name of the cell that a read-only link lets in to; null without one. */
+      readonly link: unknown;
       /** A server for training: it opens virtual controllers and reaches no real robot. */
       readonly training: boolean;
     };
@@ -181,6 +185,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** Name of the cell that a read-only link lets in to; null without one. */
+      readonly link: unknown;
       /** A server for training: it opens virtual controllers and reaches no real robot. */
       readonly training: boolean;
     };
@@ -213,6 +219,8 @@ export interface Routes {
       /** Another role for single robots and cells, by id or name. */
       readonly rights: Readonly<Record<string, "viewer" | "programmer" | "operator" | "admin">>;
       readonly passkeys: number;
+      /** Name of the cell that a read-only link lets in to; null without one. */
+      readonly link: unknown;
       /** A server for training: it opens virtual controllers and reaches no real robot. */
       readonly training: boolean;
     };
@@ -1492,6 +1500,50 @@ export interface Routes {
           };
         };
   };
+  /** A link by which people look at a cell while it is edited, without an account, for 30 days */
+  readonly linkCell: {
+    readonly method: "POST";
+    readonly path: "/api/v1/cells/{name}/link";
+    readonly body: undefined;
+    readonly answer: {
+      /** Address that lets people look at this cell as it is edited, and at nothing else. */
+      readonly link: string;
+      /** ISO 8601, UTC: when it ends. */
+      readonly until: string;
+    };
+  };
+  /** Takes back all read-only links of a cell */
+  readonly unlinkCell: {
+    readonly method: "DELETE";
+    readonly path: "/api/v1/cells/{name}/link";
+    readonly body: undefined;
+    readonly answer:
+      | {
+          readonly kind: "done";
+        }
+      | {
+          readonly kind: "refused";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        }
+      | {
+          readonly kind: "stopped";
+          readonly why: {
+            readonly code: string;
+            readonly sentence: string;
+            readonly hint: string;
+            readonly joint?: number;
+            readonly value?: number;
+            readonly limit?: number;
+          };
+        };
+  };
   /** Recordings of the robots of this server */
   readonly listRecordings: {
     readonly method: "GET";
@@ -1574,6 +1626,8 @@ export const ROUTES: { readonly [Id in RouteId]: readonly [Routes[Id]["method"],
   get_cell: ["GET", "/api/v1/cells/{name}"],
   put_cell: ["PUT", "/api/v1/cells/{name}"],
   delete_cell: ["DELETE", "/api/v1/cells/{name}"],
+  linkCell: ["POST", "/api/v1/cells/{name}/link"],
+  unlinkCell: ["DELETE", "/api/v1/cells/{name}/link"],
   listRecordings: ["GET", "/api/v1/recordings"],
   getRecording: ["GET", "/api/v1/recordings/{robot}/{file}"],
 };

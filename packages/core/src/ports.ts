@@ -246,6 +246,11 @@ export interface LineShapes {
   readonly keeps: RegExp;
   /** What stands in the place of a line that is left out; nothing when it is not given. */
   readonly blank?: (line: string) => string;
+  /**
+   * How a call of a program is written inside a line that holds more than it, as behind THEN, and what does nothing in
+   * its place.
+   */
+  readonly callInLine?: { readonly call: (name: string) => RegExp; readonly instead: string };
 }
 
 /**

@@ -15,6 +15,7 @@ export * from "./urdf/solids.ts";
 export * from "./urdf/dress.ts";
 export * from "./urdf/meshes.ts";
 export * from "./urdf/write.ts";
+export * from "./urdf/write-tree.ts";
 export * from "./xacro/index.ts";
 export * from "./dh/index.ts";
 export * from "./import/index.ts";

@@ -175,6 +175,42 @@ describe("a called program that is in none of the files", () => {
     },
   );
 
+  test.each<[id: string, robot: string, text: string, far: number]>([
+    [
+      "spel",
+      "epson_c4_a601s",
+      "Function main\nInteger n\nFor n = 1 To 2\nIf n = 1 Then Call Greifer(n) Else Go JA(20, 0, 0, 0, 0, 0)\nNext\nFend\n",
+      20,
+    ],
+    [
+      "melfa-basic",
+      "mitsubishi_rv7fl",
+      'For M1=1 To 2\nIf M1=1 Then CallP "GREIFER",M1 Else Mov J1\nNext M1\nEnd\nJ1=(20,0,90,0,90,0)\n',
+      20,
+    ],
+    [
+      "pacscript",
+      "denso_vs060",
+      "Sub Main\nDim n As Integer\nFor n = 1 To 2\nIf n = 1 Then Call Greifer(n) Else Move P, J(20, 0, 90, 0, 90, 0)\nNext\nEnd Sub\n",
+      20,
+    ],
+  ])(
+    "%s: of an If in one line only the call is left out: what stands behind Else is done",
+    (id, robotId, text, far) => {
+      const answer = executeText(dialectById(id)!, text, "main", robotById(robotId)!, undefined, {
+        missingPrograms: "leave-out",
+      });
+      if (answer.kind === "not-understood") throw new Error(JSON.stringify(answer.faults));
+      const joints = answer.program.steps.flatMap(step =>
+        step.type === "move" && "q" in step.target ? [Math.round((step.target.q[0]! * 180) / Math.PI)] : [],
+      );
+      expect(joints).toEqual([far]);
+      expect(answer.notExecuted.map(({ sentence }) => sentence.toLowerCase())).toContain(
+        "greifer is called here and is in none of the files: what it does, motions too, is not executed.",
+      );
+    },
+  );
+
   test("all of them are told at once", () => {
     const robot = robotById("kuka_kr6r900sixx")!;
     const krl = dialectById("krl")!;

@@ -1,7 +1,15 @@
 import { readFileSync } from "node:fs";
 import { compose, flangePose, pose, posesAgree, robotById, type MoveStep, type Pose } from "@twincell/core";
 import { expect, test } from "vitest";
-import { attachFrame, attachSteps, followObjects, objectOfTarget, placeFrame } from "./attach.ts";
+import {
+  attachFrame,
+  attachSteps,
+  followObjects,
+  objectOfTarget,
+  placeFrame,
+  removeFrame,
+  usesOfFrame,
+} from "./attach.ts";
 import type { CellDocument } from "./document.ts";
 import { tracedCartonCell } from "./example/index.ts";
 import { openDocument } from "./open.ts";
@@ -109,4 +117,48 @@ test("a frame whose object is taken out stays where it is; a file that names an 
 test("docs/cell.schema.json is what the code says; after a change run scripts/write-schemas.mjs", () => {
   const kept: unknown = JSON.parse(readFileSync(new URL("../../../docs/cell.schema.json", import.meta.url), "utf8"));
   expect(kept).toEqual(JSON.parse(JSON.stringify(cellJsonSchema())));
+});
+
+test("a frame that nothing counts from is removed with its copies in the programs; one in use stays, and its uses are counted", () => {
+  const cell = tracedCartonCell();
+  const [program] = stepPrograms(cell);
+  const used = cell.frames.find(({ name }) => usesOfFrame(cell, name) > 0)!.name;
+  const counted = program!.steps.filter(
+    step => step.type === "move" && "frame" in step.target && step.target.frame === used,
+  ).length;
+  expect(usesOfFrame(cell, used)).toBe(counted);
+  expect(counted).toBeGreaterThan(0);
+  expect(removeFrame(cell, used)).toBe(cell);
+  expect(removeFrame(cell, "nowhere")).toBe(cell);
+  const free = { name: "Unused", worldFromFrame: pose<"world", "frame">([1, 0, 0]) };
+  const more: CellDocument = {
+    ...cell,
+    frames: [...cell.frames, free],
+    programs: cell.programs.map(each =>
+      "frames" in each ? { ...each, frames: { ...each.frames, Unused: free.worldFromFrame } } : each,
+    ),
+  };
+  const less = removeFrame(more, "Unused");
+  expect(less.frames).toEqual(cell.frames);
+  expect(stepPrograms(less).map(each => each.frames)).toEqual(stepPrograms(cell).map(each => each.frames));
+  const pallet = {
+    ...more,
+    programs: stepPrograms(more).map(each => ({
+      ...each,
+      pallets: {
+        P: {
+          frame: "Unused",
+          origin: pose<"frame", "place">(),
+          rowEnd: [1, 0, 0] as [number, number, number],
+          columnEnd: [0, 1, 0] as [number, number, number],
+          rows: 2,
+          columns: 2,
+          layers: 1,
+          layer_m: 0,
+        },
+      },
+    })),
+  };
+  expect(usesOfFrame(pallet, "Unused")).toBe(1);
+  expect(removeFrame(pallet, "Unused")).toBe(pallet);
 });

@@ -1,6 +1,7 @@
 import {
   branchOf,
   compose,
+  everyStep,
   flangePose,
   identity,
   inverse,
@@ -91,6 +92,36 @@ export function placeFrame(cell: CellDocument, name: string, worldFromFrame: Pos
             worldFromFrame,
             attachedTo: { ...attachedTo, objectFromFrame: compose(inverse(object.worldFromObject), worldFromFrame) },
           };
+    }),
+  };
+}
+
+/** How many steps and pallets of the cell's programs count from a frame; what a text says is its own. */
+export function usesOfFrame(cell: CellDocument, name: string): number {
+  let uses = 0;
+  for (const program of cell.programs) {
+    if (isTextProgram(program)) continue;
+    for (const pallet of Object.values(program.pallets)) if (pallet.frame === name) uses++;
+    // The name of a pallet means its places, not the frame.
+    if (Object.hasOwn(program.pallets, name)) continue;
+    for (const step of everyStep(program)) {
+      if (step.type !== "move") continue;
+      if ([step.target, step.via].some(target => target && "frame" in target && target.frame === name)) uses++;
+    }
+  }
+  return uses;
+}
+
+/** The cell and its programs without a frame; the very same cell where something counts from it, or where it is not. */
+export function removeFrame(cell: CellDocument, name: string): CellDocument {
+  if (!cell.frames.some(frame => frame.name === name) || usesOfFrame(cell, name) > 0) return cell;
+  return {
+    ...cell,
+    frames: cell.frames.filter(frame => frame.name !== name),
+    programs: cell.programs.map(program => {
+      if (isTextProgram(program) || !Object.hasOwn(program.frames, name)) return program;
+      const { [name]: _gone, ...frames } = program.frames;
+      return { ...program, frames };
     }),
   };
 }

@@ -19,6 +19,8 @@ export interface ToolRecord {
   readonly flangeFromTcp: Pose<"flange", "tcp">;
   /** In the flange frame. */
   readonly shape?: Shape;
+  /** What it weighs; that of its part of the library, or of its fingers, when left out. */
+  readonly mass_kg?: number;
   /** Fingers that close around the TCP, for the simulation with physics. */
   readonly gripper?: Omit<Gripper, "name" | "flangeFromGrip">;
 }
@@ -93,6 +95,20 @@ export interface RobotRecord {
   readonly file?: Readonly<Record<string, unknown>> & { readonly id: string };
 }
 
+/** What somebody says about a step, to the others. */
+export interface StepComment {
+  readonly id: string;
+  /** Name of the program and id of the step in it; a comment on a step that is gone is kept and not shown. */
+  readonly program: string;
+  readonly step: string;
+  readonly who: string;
+  /** ISO 8601, UTC. */
+  readonly at: string;
+  readonly text: string;
+  /** It was answered or done. */
+  readonly done?: true;
+}
+
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
@@ -120,6 +136,8 @@ export interface CellDocument {
    */
   readonly pairs?: PairsRecord;
   readonly programs: readonly CellProgram[];
+  /** What people say about steps; none when left out. */
+  readonly comments?: readonly StepComment[];
   /** Name of the program being worked on. */
   readonly program: string;
 }

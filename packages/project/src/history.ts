@@ -1,7 +1,7 @@
 import type { CellDocument } from "./document.ts";
 
-/** Steps back that are kept. A cell shares what did not change with its predecessor, so they are cheap. */
-const DEPTH = 200;
+/** Steps back that are kept. A cell shares what did not change with its predecessor: a day of work is some MB. */
+const DEPTH = 10_000;
 
 interface Entry {
   readonly label: string;

@@ -14,6 +14,8 @@ export * from "./mesh/index.ts";
 export * from "./imported.ts";
 export * from "./example/index.ts";
 export * from "./parts/index.ts";
+export * from "./parts/tool-mass.ts";
+export { twoFingerTree, type GripperTree } from "./parts/gripper-tree.ts";
 export * from "./tools.ts";
 export * from "./models.ts";
 export * from "./placing/index.ts";

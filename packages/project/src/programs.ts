@@ -61,11 +61,18 @@ export function renameProgram(cell: CellDocument, name: string, wanted: string):
   const at = cell.programs.findIndex(program => program.name === name);
   if (at < 0 || plain === "" || plain === name) return cell;
   const free = freeName(cell, plain);
-  return {
+  const renamed: CellDocument = {
     ...cell,
     programs: cell.programs.with(at, { ...cell.programs[at]!, name: free }),
     program: cell.program === name ? free : cell.program,
   };
+  // What was said about its steps goes with them.
+  return cell.comments === undefined
+    ? renamed
+    : {
+        ...renamed,
+        comments: cell.comments.map(each => (each.program === name ? { ...each, program: free } : each)),
+      };
 }
 
 /** Takes a program out; its neighbour is selected. A cell keeps at least one: the last becomes an empty one. */

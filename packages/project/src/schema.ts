@@ -178,6 +178,7 @@ export const cellSchema = z.strictObject({
       name: text,
       flangeFromTcp: poseOf<"flange", "tcp">(),
       shape: z.exactOptional(shape),
+      mass_kg: z.exactOptional(z.number().positive()),
       gripper: z.exactOptional(gripper),
     }),
   ),
@@ -234,5 +235,21 @@ export const cellSchema = z.strictObject({
     }),
   ),
   programs: z.array(z.unknown()),
+  /** What people say about steps, which they name by program and id. */
+  comments: z.exactOptional(
+    z
+      .array(
+        z.strictObject({
+          id: text,
+          program: text,
+          step: text,
+          who: z.string().max(80),
+          at: z.iso.datetime(),
+          text: text.max(2000),
+          done: yes,
+        }),
+      )
+      .max(10_000),
+  ),
   program: z.string(),
 });

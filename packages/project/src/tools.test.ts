@@ -3,20 +3,23 @@ import {
   compose,
   flangePose,
   linkSolids,
+  pose,
   robotById,
   samplePlan,
   type MoveStep,
   type Vector3,
 } from "@twincell/core";
 import { expect, test } from "vitest";
-import { conveyorPalletCell, emptyCell } from "./example/index.ts";
+import { conveyorPalletCell, emptyCell, pickAndPlaceCell } from "./example/index.ts";
 import type { CellDocument, ToolRecord } from "./document.ts";
 import { cellGeometry } from "./mesh/index.ts";
 import { fitsQuery, modelQuery, modelsOf } from "./models.ts";
 import { openDocument } from "./open.ts";
 import { partById } from "./parts/index.ts";
 import { knuckleAngle, tipHeight } from "./parts/tools.ts";
+import { toolMass } from "./parts/tool-mass.ts";
 import { physicalScene } from "./physical.ts";
+import { selectedProgram } from "./programs.ts";
 import { saveDocument } from "./save.ts";
 import { changedTool, pointsTaughtWith, swappedTool, toolOfObject, toolOfPart, withNewTool } from "./tools.ts";
 
@@ -161,4 +164,32 @@ test("M-18 models are asked for by name, geometry, physical properties and behav
   expect(found("mass > 1000")).toEqual([]);
   expect(modelQuery("Conveyor and pallet")).toBeUndefined();
   expect(modelQuery("weight > 3")).toBeUndefined();
+});
+
+test("X-07 the tool counts: alone on the first motion, with what it carries where it takes it; a typed mass goes before that of the library", () => {
+  const cell = pickAndPlaceCell();
+  const robot = robotById(cell.robot.id)!;
+  const program = selectedProgram(cell)!;
+  const limit = robot.payloadMax_kg ?? robot.payload_kg!;
+  const findings = (toolMass_kg: number, part_kg: number) => {
+    const document = {
+      ...cell,
+      tools: cell.tools.map(each => ({ ...each, mass_kg: toolMass_kg })),
+      objects: cell.objects.map(object => (object.role === "workpiece" ? { ...object, mass_kg: part_kg } : object)),
+    };
+    const { verdict } = checkProgram(program, robot, { cell: cellGeometry(document, linkSolids(robot)) });
+    return verdict.steps.flatMap(({ id, findings: found }) =>
+      found.flatMap(({ code, value }) => (code.startsWith("payload.") ? [{ id, code, value }] : [])),
+    );
+  };
+  const half = limit / 2;
+  expect(findings(half, half - 0.1)).toEqual([]);
+  const grasp = program.steps.find(step => step.type === "gripper" && step.closed)!;
+  expect(findings(half, half + 0.1)).toEqual([{ id: grasp.id, code: "payload.too-heavy", value: limit + 0.1 }]);
+  const first = program.steps.find(step => step.type === "move")!;
+  expect(findings(limit + 1, 0.1)[0]).toEqual({ id: first.id, code: "payload.too-heavy", value: limit + 1 });
+  const fingers = tool("two-fingers", "fingers");
+  expect(toolMass(fingers)).toBe(0.921);
+  expect(toolMass({ ...fingers, mass_kg: 1.2 })).toBe(1.2);
+  expect(toolMass({ name: "bare", flangeFromTcp: pose() })).toBeUndefined();
 });

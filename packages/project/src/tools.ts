@@ -49,6 +49,7 @@ export const toolOfObject = (object: ObjectRecord, name: string, end_m: number):
   name,
   flangeFromTcp: { position: [0, 0, end_m], quaternion: [0, 0, 0, 1] },
   shape: object.shape,
+  ...(object.mass_kg === undefined ? {} : { mass_kg: object.mass_kg }),
 });
 
 /** A name that no tool of the cell has. */

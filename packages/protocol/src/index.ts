@@ -13,4 +13,5 @@ export * from "./plug-in.ts";
 export * from "./video/wire.ts";
 export * from "./video/clock.ts";
 export * from "./video/relay.ts";
+export * from "./editing.ts";
 export * from "./api/index.ts";

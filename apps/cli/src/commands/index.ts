@@ -10,6 +10,7 @@ import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { diffCommand } from "./diff.ts";
 import { doctorCommand } from "./doctor.ts";
+import { firstMotionCommand } from "./first-motion.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
@@ -51,6 +52,7 @@ export const COMMANDS: readonly Command[] = [
   serviceCommand,
   virtualCommand,
   connectCommand,
+  firstMotionCommand,
   moveCommand,
   jogCommand,
   stopCommand,

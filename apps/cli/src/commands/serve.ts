@@ -1,4 +1,5 @@
 import { existsSync, writeFileSync } from "node:fs";
+import { flushCompileCache } from "node:module";
 import { join } from "node:path";
 import { spawn } from "node:child_process";
 import { jsonLog, serve, textLog, type Log, type Served, type ServeOptions } from "@twincell/server";
@@ -95,6 +96,8 @@ SIGINT and SIGTERM stop every robot, wait until it stands, finish recordings and
     );
     if (kind === "json") announce(log, served, data);
     else await greet(served);
+    // Kept now: a server that is killed later is back as quickly.
+    flushCompileCache();
     if (options.flag("open")) openBrowser(served.url);
 
     await new Promise<void>(resolve => {
@@ -118,7 +121,11 @@ async function greet(served: Served): Promise<void> {
     process.stdout.write(`From another machine: ${url}\n${await qrText(url, { type: "terminal", small: true })}`);
   if (served.code)
     process.stdout.write(
-      `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
+      `Access code: ${served.code}. Browsers will warn about the certificate, which was made here, until they trust its authority.\n`,
+    );
+  if (served.fingerprint !== null && served.lanUrls[0] !== undefined)
+    process.stdout.write(
+      `To trust it, open ${new URL("/trust/", served.lanUrls[0]).href} there; its authority is SHA-256 ${served.fingerprint}\n`,
     );
   if (served.setUp !== null) process.stdout.write(`Set up the first admin, once: ${served.setUp}\n`);
   for (const address of served.standards) process.stdout.write(`${address}\n`);

@@ -1,11 +1,15 @@
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
-/** The built documentation, beside the command line in an installed package; undefined where it is not built. */
-export function docsFolder(): string | undefined {
-  return [new URL("../docs", import.meta.url), new URL("../../../../docs/.vitepress/dist", import.meta.url)]
-    .map(folder => fileURLToPath(folder))
-    .find(folder => ["index.html", "index.html.br"].some(file => existsSync(`${folder}/${file}`)));
+/**
+ * The documentation: beside the command line in an installed package, in its own folder in the source tree, where it
+ * may still have to be built.
+ */
+export function docsFolder(): string {
+  const packaged = fileURLToPath(new URL("../docs", import.meta.url));
+  return ["index.html", "index.html.br"].some(file => existsSync(`${packaged}/${file}`))
+    ? packaged
+    : fileURLToPath(new URL("../../../../docs/.vitepress/dist", import.meta.url));
 }
 
 /** The built studio: beside the command line in an installed package, in its own folder in the source tree. */

@@ -17,7 +17,9 @@ import {
 } from "@twincell/protocol";
 import type { Fleet } from "../fleet/fleet.ts";
 import { json, outcomeAnswer, refusal, type Answer, type Call, type Handlers } from "./calls.ts";
-import { documentFolder, type DocumentFolder } from "./documents.ts";
+import type { DocumentFolder } from "./documents.ts";
+import type { SharedCells } from "../editing/shared-cells.ts";
+import { addCellLink, removeCellLinks } from "../people/tokens.ts";
 import type { Judge, JudgeRequest } from "./judge.ts";
 import { metricsText, type RequestCounts } from "./metrics.ts";
 import { peopleHandlers, withoutPeople, type PeopleParts } from "../people/people-host.ts";
@@ -31,11 +33,19 @@ export interface ApiParts {
   readonly judge: Judge;
   readonly scheduler: Scheduler;
   readonly data: string | undefined;
+  readonly programs: DocumentFolder;
+  readonly cells: DocumentFolder;
+  /** The cells that people edit together. */
+  readonly shared: SharedCells;
+  readonly now_ms: () => number;
+  /** Where other machines reach this server; "" where none does. */
+  readonly reached: () => string;
   readonly requests: RequestCounts;
   /** The server reaches no real robot. */
   readonly training: boolean;
   /** Whether requests are still taken. */
   readonly ready: () => boolean;
+  readonly linkOf: (cookies: string | undefined) => string | null;
   /** Null where nobody signs in by name. */
   readonly people: PeopleParts | null;
   readonly fleet: () => Fleet;
@@ -97,10 +107,11 @@ export function apiHandlers(parts: ApiParts): Handlers {
     fleet: () => json({ robots: parts.fleet().robots() }),
     fleetCommand: async ({ params, body }) =>
       outcomeAnswer(await parts.fleet().command(params["site"]!, body, FLEET_PATIENCE_MS)),
-    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople(parts.training)),
+    ...(parts.people ? peopleHandlers(parts.people) : withoutPeople(parts.training, parts.linkOf)),
     ...robotHandlers(parts),
     ...judgeHandlers(parts.judge),
-    ...documentHandlers(documentFolder(parts.data, "programs"), documentFolder(parts.data, "cells")),
+    ...documentHandlers(parts),
+    ...linkHandlers(parts),
     ...recordingHandlers(parts.data === undefined ? undefined : join(parts.data, "recordings")),
   };
 }
@@ -303,7 +314,11 @@ function judgeHandlers(judge: Judge): Pick<Handlers, "check" | "plan" | "writeTe
 }
 
 type DocumentRoutes = `${"list" | "get" | "put" | "delete"}_${"program" | "cell"}`;
-function documentHandlers(programs: DocumentFolder, cells: DocumentFolder): Pick<Handlers, DocumentRoutes> {
+function documentHandlers({
+  programs,
+  cells,
+  shared,
+}: Pick<ApiParts, "programs" | "cells" | "shared">): Pick<Handlers, DocumentRoutes> {
   const notFound = (outcome: CommandOutcome): Answer =>
     outcome.kind === "refused" && outcome.why.code === "documents.none" ? json(outcome, 404) : outcomeAnswer(outcome);
   const badName = (name: string): Answer | null =>
@@ -335,8 +350,43 @@ function documentHandlers(programs: DocumentFolder, cells: DocumentFolder): Pick
     delete_program: ({ params }) => remove(programs, params["name"]!),
     list_cell: () => list(cells),
     get_cell: ({ params }) => get(cells, params["name"]!),
-    put_cell: ({ params, body }) => put(cells, params["name"]!, body),
-    delete_cell: ({ params }) => remove(cells, params["name"]!),
+    // Whoever edits the cell at this moment gets what was written as a change of it.
+    put_cell: async ({ params, body }) => {
+      const answer = await put(cells, params["name"]!, body);
+      if (isDone(answer)) shared.written(params["name"]!, body);
+      return answer;
+    },
+    delete_cell: async ({ params }) => {
+      const answer = await remove(cells, params["name"]!);
+      if (isDone(answer)) await shared.removed(params["name"]!);
+      return answer;
+    },
+  };
+}
+const isDone = (answer: Answer): boolean => answer.kind === "json" && (answer.status ?? 200) === 200;
+
+/** A read-only link ends after so many days. */
+const LINK_MS = 30 * 86_400_000;
+function linkHandlers({
+  cells,
+  data,
+  now_ms,
+  reached,
+}: Pick<ApiParts, "cells" | "data" | "now_ms" | "reached">): Pick<Handlers, "linkCell" | "unlinkCell"> {
+  return {
+    async linkCell({ params, origin }) {
+      const name = params["name"]!;
+      const found = await cells.get(name);
+      if (data === undefined || !("document" in found))
+        return "document" in found ? outcomeAnswer({ kind: "done" }) : json(found, 404);
+      const until = new Date(now_ms() + LINK_MS);
+      const token = addCellLink(data, name, until);
+      return json({ link: `${reached() || `${origin}/`}?link=${token}`, until: until.toISOString() });
+    },
+    unlinkCell: ({ params }) =>
+      data !== undefined && removeCellLinks(data, params["name"]!)
+        ? json({ kind: "done" })
+        : json(refusal("cells.no-link", "There is no link to this cell.", "POST makes one."), 404),
   };
 }
 

@@ -20,7 +20,7 @@ function bench(query: string) {
   const closed: string[] = [];
   const socket = Object.assign(new EventEmitter(), {
     bufferedAmount: 0,
-    send: (text: string) => sent.push(text),
+    send: (text: string | Buffer) => sent.push(String(text)),
     close: (_: number, why: string) => closed.push(why),
     terminate: () => undefined,
   });
@@ -54,3 +54,37 @@ test.each(["messages_per_s=0", "messages_per_s=x", "messages_per_s=5000", "rate_
     expect(bench(query).closed[0]).toMatch(/wants a number above 0/);
   },
 );
+
+test("50 readers of one robot at one pace are sent the same bytes, made once; whoever reads slowly or another robot gets their own", () => {
+  const scheduler = manualScheduler();
+  const tells: ((text: string) => void)[] = [];
+  const host: Pick<RobotServer, "join"> = {
+    join(_, { send }) {
+      tells.push(send);
+      return { hear: () => undefined, leave: () => undefined };
+    },
+  };
+  const route = streamRoute(host, scheduler);
+  const readers = Array.from({ length: 50 }, (_, i) => {
+    const sent: Buffer[] = [];
+    const socket = Object.assign(new EventEmitter(), {
+      // The last one does not read at all.
+      bufferedAmount: i === 49 ? 1 << 30 : 0,
+      send: (bytes: Buffer) => sent.push(bytes),
+      close: () => undefined,
+      terminate: () => undefined,
+    });
+    const query = i === 48 ? "robot=other&messages_per_s=60" : "robot=arm&messages_per_s=60";
+    route.welcome(socket as unknown as WebSocket, { url: `/api/v1/stream?${query}` } as IncomingMessage);
+    return sent;
+  });
+  for (let sequence = 0; sequence < 500; sequence++) {
+    const text = `{"type":"sample","station":"arm","sequence":${sequence}}`;
+    for (const tell of tells) tell(text);
+    scheduler.advance(0.002);
+  }
+  const [first] = readers;
+  expect(first!.length).toBeGreaterThan(55);
+  for (const sent of readers.slice(1, 48)) expect(sent.every((bytes, i) => bytes === first![i])).toBe(true);
+  expect([readers[48]!.length, readers[49]!.length]).toEqual([0, 0]);
+});

@@ -5,6 +5,7 @@ import { clientOf, type AccessCode } from "../access.ts";
 import type { Entered } from "../api/calls.ts";
 import type { Account } from "./accounts.ts";
 import type { AuditLog } from "./audit-log.ts";
+import { cellLinks, isLookAt } from "./links.ts";
 import { mayUse, type Role, type TokenAnswer } from "./tokens.ts";
 
 /** What somebody may do at one robot or cell. */
@@ -22,6 +23,8 @@ export interface Gate {
   stays(request: IncomingMessage): boolean;
   /** The name of the person or token of a request, or null. */
   nameOf(request: IncomingMessage): string | null;
+  /** Whether a read-only link is all that lets that request in. */
+  byLink(request: IncomingMessage): boolean;
   /** Their roles as they are at each call; null where no account or token limits anything. */
   roleOf(request: IncomingMessage): RoleAt | null;
 }
@@ -47,6 +50,7 @@ export const roleAt = ({ role, rights }: Pick<Account, "role" | "rights">, subje
 /** Lets in by token, by account, by access code, or on loopback without any; writes down who was turned away. */
 export function createGate({ access, tokens, people, audit, scheduler, onTrouble }: GateOptions): Gate {
   const written_s = new Map<string, number>();
+  const links = cellLinks(tokens);
   function out(
     request: IncomingMessage,
     status: 401 | 403 | 429,
@@ -71,8 +75,14 @@ export function createGate({ access, tokens, people, audit, scheduler, onTrouble
     mayUse(role, kind)
       ? { kind: "in", who: name, named: true }
       : out(request, 403, name, `${name} is ${roleText(role)} and may not do this.`, needed(kind));
+  /** A read-only link lets in to one cell, for looking. */
+  const looking = (request: IncomingMessage, name: string, cell: string, kind: ApiRoute["access"]): Entered =>
+    kind === "look" && isLookAt(request, cell)
+      ? { kind: "in", who: name, named: true }
+      : out(request, 403, name, `This link is for looking at the cell “${cell}” and nothing else.`, "Sign in.");
   function byToken(request: IncomingMessage, given: string, kind: ApiRoute["access"]): Entered {
     const answer = tokens(given);
+    if (answer.kind === "known" && answer.cell !== null) return looking(request, answer.name, answer.cell, kind);
     if (answer.kind === "known") return judged(request, answer.name, answer.role, kind);
     return answer.kind === "unknown"
       ? out(request, 401, "somebody", "This token is not known here.", "Make one with twincell token add.")
@@ -90,6 +100,8 @@ export function createGate({ access, tokens, people, audit, scheduler, onTrouble
     if (isToken(given)) return byToken(request, given, kind);
     if (people) {
       const account = people(request.headers.cookie);
+      const link = account ? null : links.of(request.headers.cookie);
+      if (link) return looking(request, link.name, link.cell, kind);
       return account
         ? judged(request, account.name, roleAt(account, subject), kind)
         : out(request, 401, "somebody", "People sign in here.", "Sign in, or send a token.");
@@ -98,6 +110,8 @@ export function createGate({ access, tokens, people, audit, scheduler, onTrouble
     const entry = access.enter(request.headers.cookie, given, clientOf(request.socket.remoteAddress));
     if (entry.kind === "welcome" || entry.kind === "welcome-with-cookie")
       return { kind: "in", who: "api", named: false };
+    const link = entry.kind === "ask" ? links.of(request.headers.cookie) : null;
+    if (link) return looking(request, link.name, link.cell, kind);
     return entry.kind === "ask"
       ? out(
           request,
@@ -118,24 +132,34 @@ export function createGate({ access, tokens, people, audit, scheduler, onTrouble
     enter,
     socket(request) {
       const path = (request.url ?? "").split("?")[0];
-      // By code only the cookie counts here, as for every socket of the studio.
+      // A read-only link opens one socket; by code only the cookie counts here, as for every socket of the studio.
       if (!isToken(bearer(request)))
-        return people
+        return people || path === SOCKETS.editing
           ? enter(request, "look").kind === "in"
-          : access === null ||
-              access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome";
-      return enter(request, path === SOCKETS.stream ? "look" : "command").kind === "in";
+          : access === null || isWelcome(request, access);
+      return enter(request, path === SOCKETS.stream || path === SOCKETS.editing ? "look" : "command").kind === "in";
     },
     stays(request) {
       const given = bearer(request);
       if (isToken(given)) return tokens(given).kind === "known";
-      return people === null || people(request.headers.cookie) !== null;
+      const link = links.of(request.headers.cookie) !== null;
+      if (people) return people(request.headers.cookie) !== null || link;
+      return access === null || isWelcome(request, access) || link;
     },
     nameOf(request) {
       const given = bearer(request);
       const answer = isToken(given) ? tokens(given) : null;
       if (answer) return answer.kind === "known" ? answer.name : null;
       return people?.(request.headers.cookie)?.name ?? null;
+    },
+    byLink(request) {
+      const given = bearer(request);
+      if (isToken(given)) {
+        const answer = tokens(given);
+        return answer.kind === "known" && answer.cell !== null;
+      }
+      const other = people ? people(request.headers.cookie) !== null : access === null || isWelcome(request, access);
+      return !other && links.of(request.headers.cookie) !== null;
     },
     roleOf(request) {
       const given = bearer(request);
@@ -152,6 +176,9 @@ export function createGate({ access, tokens, people, audit, scheduler, onTrouble
     },
   };
 }
+/** Whether a page was let in by the access code. */
+const isWelcome = (request: IncomingMessage, access: AccessCode): boolean =>
+  access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome";
 const roleText = (role: Role): string => (role === "operator" || role === "admin" ? `an ${role}` : `a ${role}`);
 const needed = (kind: ApiRoute["access"]): string =>
   kind === "people"

@@ -25,6 +25,8 @@ type Routes =
 export interface PeopleParts {
   /** The server reaches no real robot. */
   readonly training: boolean;
+  /** Name of the cell that the read-only link of a page lets in to. */
+  readonly linkOf: (cookies: string | undefined) => string | null;
   readonly accounts: Accounts;
   readonly sessions: Sessions;
   readonly now_s: () => number;
@@ -48,12 +50,23 @@ const refused = (code: string, sentence: string, hint: string, status = 401): An
   json(refusal(code, sentence, hint), status);
 
 /** A server on which nobody signs in by name. */
-export function withoutPeople(training: boolean): Pick<Handlers, Routes> {
+export function withoutPeople(
+  training: boolean,
+  linkOf: (cookies: string | undefined) => string | null,
+): Pick<Handlers, Routes> {
   const none = (): Answer =>
     refused("people.none", "Nobody signs in by name here.", "Start the server with --accounts and --data DIR.", 409);
-  const nobody: SessionInfo = { accounts: false, name: null, role: null, rights: {}, passkeys: 0, training };
+  const nobody: SessionInfo = {
+    accounts: false,
+    name: null,
+    role: null,
+    rights: {},
+    passkeys: 0,
+    training,
+    link: null,
+  };
   return {
-    session: () => json(nobody),
+    session: ({ cookies }) => json({ ...nobody, link: linkOf(cookies) }),
     signIn: none,
     signOut: none,
     acceptInvitation: none,
@@ -68,7 +81,14 @@ export function withoutPeople(training: boolean): Pick<Handlers, Routes> {
 }
 
 /** What people sign in with, and who may do what. */
-export function peopleHandlers({ training, accounts, sessions, now_s, audit }: PeopleParts): Pick<Handlers, Routes> {
+export function peopleHandlers({
+  training,
+  linkOf,
+  accounts,
+  sessions,
+  now_s,
+  audit,
+}: PeopleParts): Pick<Handlers, Routes> {
   const secrets = passwords();
   const challenges = new Map<string, number>();
   const remember = (challenge: string): void => {
@@ -89,6 +109,7 @@ export function peopleHandlers({ training, accounts, sessions, now_s, audit }: P
     rights: account?.rights ?? {},
     passkeys: account?.passkeys.length ?? 0,
     training,
+    link: null,
   });
   const me = (call: Pick<Call<never>, "cookies">): Account | undefined => {
     const name = sessions.nameOf(call.cookies);
@@ -119,7 +140,10 @@ export function peopleHandlers({ training, accounts, sessions, now_s, audit }: P
   const hostOf = (origin: string): string => new URL(origin).hostname;
 
   return {
-    session: call => json(infoOf(me(call))),
+    session: call => {
+      const account = me(call);
+      return json({ ...infoOf(account), link: account ? null : linkOf(call.cookies) });
+    },
     async signIn(call) {
       const pause = paused(call);
       if (pause) return pause;

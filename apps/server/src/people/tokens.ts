@@ -25,6 +25,8 @@ export interface TokenEntry {
   readonly hash: string;
   /** ISO 8601, UTC; null for one that does not end. */
   readonly until: string | null;
+  /** Lets in to look at that cell alone: a read-only link. */
+  readonly cell?: string;
 }
 const FORMAT = "twincell.tokens";
 const hashOf = (token: string): string => createHash("sha256").update(token).digest("hex");
@@ -51,11 +53,14 @@ export function readTokens(data: string): readonly TokenEntry[] {
   }
   if (value.format !== FORMAT || value.version !== 1 || !Array.isArray(value.tokens))
     throw fault("this release reads version 1");
-  return (value.tokens as Partial<TokenEntry>[]).map(({ name, role, hash, until }) => {
+  return (value.tokens as Partial<TokenEntry>[]).map(({ name, role, hash, until, cell }) => {
     if (typeof name !== "string" || !ROLES.includes(role as Role) || !/^[0-9a-f]{64}$/.test(hash ?? ""))
       throw fault("an entry has no name, role or hash");
     if (until !== null && !Number.isFinite(Date.parse(until ?? ""))) throw fault(`“${name}” has no end that is a date`);
-    return { name, role: role as Role, hash: hash!, until: until ?? null };
+    if (cell !== undefined && (typeof cell !== "string" || role !== "viewer"))
+      throw fault(`“${name}” is a link with a role or cell that none has`);
+    const entry = { name, role: role as Role, hash: hash!, until: until ?? null };
+    return cell === undefined ? entry : { ...entry, cell };
   });
 }
 function writeTokens(data: string, tokens: readonly TokenEntry[]): void {
@@ -76,6 +81,21 @@ export function addToken(data: string, name: string, role: Role, until: Date | n
   writeTokens(data, [...tokens, { name, role, hash: hashOf(token), until: until?.toISOString() ?? null }]);
   return token;
 }
+/** Makes a read-only link to one cell: a token for looking at it and nothing else. */
+export function addCellLink(data: string, cell: string, until: Date): string {
+  const tokens = readTokens(data);
+  const token = `twincell_${randomBytes(32).toString("base64url")}`;
+  const name = `link to ${cell} (${hashOf(token).slice(0, 8)})`;
+  writeTokens(data, [...tokens, { name, role: "viewer", hash: hashOf(token), until: until.toISOString(), cell }]);
+  return token;
+}
+/** Takes back all read-only links to a cell. Whether there was one. */
+export function removeCellLinks(data: string, cell: string): boolean {
+  const tokens = readTokens(data);
+  const kept = tokens.filter(each => each.cell !== cell);
+  if (kept.length < tokens.length) writeTokens(data, kept);
+  return kept.length < tokens.length;
+}
 /** Whether there was one of that name. */
 export function removeToken(data: string, name: string): boolean {
   const tokens = readTokens(data);
@@ -85,7 +105,8 @@ export function removeToken(data: string, name: string): boolean {
 }
 
 export type TokenAnswer =
-  | { readonly kind: "known"; readonly name: string; readonly role: Role }
+  /** `cell`: it lets in to look at that cell alone. */
+  | { readonly kind: "known"; readonly name: string; readonly role: Role; readonly cell: string | null }
   | { readonly kind: "ended"; readonly name: string }
   | { readonly kind: "unknown" };
 
@@ -117,6 +138,6 @@ export function tokenReader(
     if (!entry) return { kind: "unknown" };
     return entry.until !== null && now_ms() > Date.parse(entry.until)
       ? { kind: "ended", name: entry.name }
-      : { kind: "known", name: entry.name, role: entry.role };
+      : { kind: "known", name: entry.name, role: entry.role, cell: entry.cell ?? null };
   };
 }

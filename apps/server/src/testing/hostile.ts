@@ -14,6 +14,12 @@ export interface HostileReport {
   /** Answers of 500 and more. */
   readonly faults: readonly string[];
 }
+/** A read-only link, which lets in to look at one cell: everything else that its holder asks for is hostile too. */
+export interface HeldLink {
+  /** As the cookie of a page. */
+  readonly cookie: string;
+  readonly cell: string;
+}
 const TOKENS = [
   "",
   "twincell_",
@@ -23,7 +29,18 @@ const TOKENS = [
   "\u00ff".repeat(20),
   "A".repeat(4000),
 ];
-const NAMES = ["arm", "..", "%2e%2e%2f", "a".repeat(300), "%00", "__proto__", "constructor", "arm%0d%0aX: 1", "☃"];
+const NAMES = [
+  "arm",
+  "line",
+  "..",
+  "%2e%2e%2f",
+  "a".repeat(300),
+  "%00",
+  "__proto__",
+  "constructor",
+  "arm%0d%0aX: 1",
+  "☃",
+];
 const BODIES: readonly string[] = [
   "",
   "{}",
@@ -52,6 +69,9 @@ const RAW: readonly string[] = [
 const WORDS: readonly string[] = [
   '{"type":"move","station":"arm","q_rad":[0,0,0,0,0,0],"id":0}',
   '{"type":"take","station":"arm","id":1}',
+  '{"type":"join","epoch":null,"vector":""}',
+  '{"type":"update","number":1,"update":"AAA="}',
+  '{"type":"update","number":2,"update":"AQGZAAAEAQRjZWxsBG5hbWUBdwRldmlsAA=="}',
   '{"type":"stop","emergency":true}',
   "not JSON",
 ];
@@ -60,7 +80,13 @@ const WORDS: readonly string[] = [
  * Sends requests of every route and socket with forged, broken and oversized parts, as somebody without an account. A
  * seed gives the same flood.
  */
-export async function hostileFlood(url: string, count: number, seed: number, atOnce = 16): Promise<HostileReport> {
+export async function hostileFlood(
+  url: string,
+  count: number,
+  seed: number,
+  link: HeldLink | null = null,
+  atOnce = 16,
+): Promise<HostileReport> {
   const random = seededRandom(seed);
   const pick = <T>(from: readonly T[]): T => from[Math.floor(random() * from.length)]!;
   const { hostname, port } = new URL(url);
@@ -77,13 +103,18 @@ export async function hostileFlood(url: string, count: number, seed: number, atO
   };
   const http = (): Promise<void> => {
     const route = pick(routes);
-    const path = route.path.replace(/\{\w+\}/g, () => pick(NAMES));
+    const holds = link !== null && random() < 0.3;
+    // Whoever has a link mostly asks for what stands beside its cell.
+    const names = holds ? [link.cell] : NAMES;
+    const path = route.path.replace(/\{\w+\}/g, () => pick(names));
     const token = pick(TOKENS);
     const body = pick(BODIES);
+    const looks = holds && route.method === "get" && path === `/api/v1/cells/${link.cell}`;
     const sent = `${route.method} ${path} ${body.slice(0, 40)}`;
     return new Promise(resolve => {
       const end = (status: number | null): void => {
-        note(sent, status);
+        if (looks && status === 200) answers["looked"] = (answers["looked"] ?? 0) + 1;
+        else note(sent, status);
         resolve();
       };
       try {
@@ -94,9 +125,12 @@ export async function hostileFlood(url: string, count: number, seed: number, atO
           path: encodeURI(path).replaceAll("%25", "%"),
           headers: {
             "content-type": pick(["application/json", "text/plain", "application/json; charset=utf-16"]),
-            ...(token === "" ? {} : { authorization: `Bearer ${encodeURI(token)}` }),
-            ...(random() < 0.3
-              ? { cookie: `twincell_session=${encodeURI(token)}; twincell_access=${encodeURI(token)}` }
+            ...(token === "" || holds ? {} : { authorization: `Bearer ${encodeURI(token)}` }),
+            ...(holds ? { cookie: link.cookie } : {}),
+            ...(!holds && random() < 0.3
+              ? {
+                  cookie: `twincell_session=${encodeURI(token)}; twincell_access=${encodeURI(token)}; twincell_link=${encodeURI(token)}`,
+                }
               : {}),
             ...(random() < 0.2 ? { "twincell-lease": "A".repeat(32) } : {}),
             ...(random() < 0.1 ? { origin: "http://elsewhere.example" } : {}),
@@ -141,15 +175,19 @@ export async function hostileFlood(url: string, count: number, seed: number, atO
     });
   };
   const socket = (): Promise<void> => {
-    const path = pick([SOCKETS.commands, SOCKETS.stream, "/camera", "/nothing"]);
+    const editing = `${SOCKETS.editing}?cell=${pick(["line", "line", "arm", ".."])}`;
+    const path = pick([SOCKETS.commands, SOCKETS.stream, editing, "/camera", "/nothing"]);
+    const holds = link !== null && random() < 0.3;
+    const looks = holds && path === `${SOCKETS.editing}?cell=${link.cell}`;
     const token = pick(TOKENS.filter(each => /^[\w]*$/.test(each)));
     return new Promise(resolve => {
       const client = new WebSocket(`ws://${hostname}:${port}${path}`, {
-        headers: token === "" ? {} : { authorization: `Bearer ${token}` },
+        headers: holds ? { cookie: link.cookie } : token === "" ? {} : { authorization: `Bearer ${token}` },
         ...(random() < 0.2 ? { origin: "http://elsewhere.example" } : {}),
       });
       client.on("open", () => {
-        letIn.push(`socket ${path} ${token}`);
+        if (looks) answers["looked"] = (answers["looked"] ?? 0) + 1;
+        else letIn.push(`socket ${path} ${token}`);
         for (const word of WORDS) client.send(word);
         client.close();
       });

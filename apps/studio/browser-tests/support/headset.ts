@@ -24,7 +24,7 @@ export class Person {
    * Enters as a person does, with the button, and waits until the two hands are there. The emulated display is as large
    * as the emulator believes the window to be: small, since every pixel of it is drawn by the processor.
    */
-  async enter(width = 400, height = 240): Promise<void> {
+  async enter(width = 400, height = 240, hands = 2): Promise<void> {
     const kept = await this.page.evaluateHandle(
       ([w, h]) => {
         const own = {
@@ -42,10 +42,10 @@ export class Person {
     // Sent, not aimed: a page drawn in software takes long to stand still for a pointer.
     await this.page.getByRole("button", { name: "Headset" }).dispatchEvent("click");
     await this.page.waitForFunction(
-      () =>
+      count =>
         window.twincell.stores.viewStore.getState().inHeadset &&
-        window.twincellScene!.gl.xr.getSession()?.inputSources.length === 2,
-      null,
+        window.twincellScene!.gl.xr.getSession()?.inputSources.length === count,
+      hands,
       { timeout: 120_000 },
     );
     await kept.evaluate(own => {
@@ -145,7 +145,8 @@ export class Person {
     await this.page.evaluate(() => {
       const { controllers, hands } = window.xrDevice;
       for (const controller of [controllers.left, controllers.right])
-        for (const name of ["squeeze", "trigger"]) controller?.updateButtonValue(name, 0);
+        for (const button of controller?.gamepadConfig.buttons ?? [])
+          if (button) controller?.updateButtonValue(button.id, 0);
       for (const hand of [hands.left, hands.right]) hand?.updatePinchValue(0);
     });
     await this.frames();
@@ -156,7 +157,7 @@ export class Person {
   async trigger(side: Side, value: 0 | 1): Promise<void> {
     await this.button(side, "trigger", value);
   }
-  private async button(side: Side, name: string, value: number): Promise<void> {
+  async button(side: Side, name: string, value: number): Promise<void> {
     await this.page.evaluate(([which, what, how]) => window.xrDevice.controllers[which]!.updateButtonValue(what, how), [
       side,
       name,

@@ -5,6 +5,7 @@ import type {} from "../../src/console.ts";
 import type {} from "../../src/scene/scene-probe.tsx";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
 import { onTestFinished, TestRunner } from "vitest";
+import { deviceScript, type EmulatedDevice } from "./headset-devices.ts";
 export type { Page };
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
@@ -40,7 +41,9 @@ export interface OpenOptions {
   readonly locale?: string;
   readonly touch?: boolean;
   /** Installs an emulated headset before the page starts: a Quest 3, or the one that is named. */
-  readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro";
+  readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro" | EmulatedDevice;
+  /** Each eye has its own half of the display; otherwise, as the emulator does, the left eye has all of it. */
+  readonly bothEyes?: boolean;
   /** The page may keep itself for use without a network; every other test asks the server for everything. */
   readonly offline?: boolean;
   /** Added to the page before it starts. */
@@ -117,8 +120,12 @@ export class Studio {
     });
     if (options.headset) {
       await page.addInitScript({ path: `${root}node_modules/iwer/build/iwer.min.js` });
+      const { headset } = options;
+      const own = typeof headset === "object";
+      const made = own ? "window.makeDevice()" : `new IWER.XRDevice(IWER.${headset === true ? "metaQuest3" : headset})`;
+      if (own) await page.addInitScript({ content: deviceScript(headset) });
       await page.addInitScript({
-        content: `{const d=new IWER.XRDevice(IWER.${options.headset === true ? "metaQuest3" : options.headset});d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;
+        content: `{const d=${made};d.stereoEnabled=${options.bothEyes === true};d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;window.afterDevice?.();
         // The emulator shows the page's own canvas in its own frame: let the picture fill it.
         addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}`,
       });

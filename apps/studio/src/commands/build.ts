@@ -34,6 +34,8 @@ export const buildCommands = (): readonly Command[] => [
   tool("turn", words.commands.turnTool, "E"),
   tool("scale", words.commands.scaleTool, "R"),
   tool("measure", words.commands.measureTool, "M"),
+  tool("mate", words.commands.mateTool, "J"),
+  { ...tool("rig", words.commands.rigTool, ""), keys: [] },
   {
     id: "build.snap",
     group: "edit",

@@ -1,10 +1,13 @@
+import { chooseTool } from "../stores/build.ts";
 import { cellStore } from "../stores/cell.ts";
 import type { Command } from "../stores/commands.ts";
 import { commit, redo, undo } from "../stores/document.ts";
+import { clearMate, mateStore } from "../stores/mate.ts";
 import { clearMeasure, measureStore } from "../stores/measure.ts";
 import { notify } from "../stores/notices.ts";
 import { stopEverything } from "../stores/stop.ts";
 import { select, selectionStore } from "../stores/selection.ts";
+import { picksSurfaces } from "../stores/surface.ts";
 import { traceStore } from "../stores/trace.ts";
 import { words } from "../messages/index.ts";
 
@@ -70,6 +73,8 @@ function leave(): void {
   if (trace.active && trace.chosen.length > 0) traceStore.setState({ chosen: [], hovered: null });
   else if (trace.active) traceStore.setState({ active: false, hovered: null });
   else if (measureStore.getState().picks.length > 0) clearMeasure();
+  else if (mateStore.getState().moving) clearMate();
+  else if (picksSurfaces()) chooseTool("select");
   else if (selectionStore.getState().selected) select(null);
 }
 function stop(): void {

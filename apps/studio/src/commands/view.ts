@@ -2,6 +2,7 @@ import type { Command } from "../stores/commands.ts";
 import { openDocs } from "./docs.ts";
 import { openDialog } from "../stores/dialogs.ts";
 import { headsetStore } from "../stores/headset.ts";
+import { openMarkerView } from "../stores/marker-view.ts";
 import {
   showMode,
   toggleCamera,
@@ -58,10 +59,20 @@ export const viewCommands = (): readonly Command[] => [
     run: () => openDialog("shortcuts"),
   },
   { id: "help.docs", group: "help", words: words.commands.docs, keys: ["F1"], run: () => void openDocs() },
+  { id: "help.device", group: "help", words: words.device.command, run: () => openDialog("device") },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },
   { id: "view.people", group: "view", words: words.people.command, run: () => openDialog("people") },
+  { id: "view.together", group: "view", words: words.together.command, run: () => openDialog("together") },
   { id: "view.fleet", group: "view", words: words.fleet.command, run: () => openDialog("fleet") },
   { id: "view.cameras", group: "view", words: words.video.command, run: () => openDialog("cameras") },
+  {
+    id: "view.marker",
+    group: "view",
+    words: words.marker.command,
+    aliases: ["Augmented reality"],
+    run: openMarkerView,
+  },
+  { id: "view.registration", group: "view", words: words.registration.command, run: () => openDialog("registration") },
   { id: "view.collision", group: "view", words: words.commands.collision, run: () => openDialog("collision") },
   { id: "help.coach", group: "help", words: words.commands.coach, run: () => viewStore.setState({ coachDone: false }) },
   { id: "cell.robot", group: "edit", words: words.commands.anotherRobot, run: () => openDialog("robots") },

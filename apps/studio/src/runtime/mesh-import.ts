@@ -24,7 +24,10 @@ let cancel: (() => void) | null = null;
 export const cancelShapes = (): void => cancel?.();
 
 /** One request in a worker of its own: memory that a large file took goes with it. Null when a person cancelled. */
-async function ask(request: ShapeRequest, transfer: readonly ArrayBuffer[]): Promise<ShapeAnswer | null> {
+export async function askShapes(
+  request: ShapeRequest,
+  transfer: readonly ArrayBuffer[] = [],
+): Promise<ShapeAnswer | null> {
   cancel?.();
   const worker = new Worker(new URL("../workers/shape.worker.ts", import.meta.url), { type: "module" });
   try {
@@ -54,7 +57,7 @@ export async function importShapes(files: readonly FileAt[], robots = true): Pro
     files.map(async ({ path, file }) => ({ path, bytes: new Uint8Array(await file.arrayBuffer()) })),
   );
   const taken = cellStore.getState().document?.objects.map(({ id }) => id) ?? [];
-  const answer = await ask(
+  const answer = await askShapes(
     { kind: "import", files: read, taken, robots },
     read.map(({ bytes }) => bytes.buffer),
   );
@@ -104,7 +107,7 @@ const objectsOf = (file: string): readonly ObjectRecord[] => {
 export async function correctUnit(card: ShapeCard, metresPerUnit: number): Promise<void> {
   const factor = metresPerUnit / card.unit.metresPerUnit;
   shapeStore.setState({ busy: { file: card.file, what: "changing" } });
-  const answer = await ask({ kind: "scale", objects: objectsOf(card.file), factor }, []);
+  const answer = await askShapes({ kind: "scale", objects: objectsOf(card.file), factor }, []);
   if (answer?.kind === "not-understood") notify("bad", answer.sentence);
   if (answer?.kind !== "scaled") return;
   commit(words.shapes.undoUnit, document => withObjects(document, answer.objects));
@@ -118,7 +121,7 @@ export async function correctUnit(card: ShapeCard, metresPerUnit: number): Promi
 /** Fewer triangles for everything that came from the file, with the deviation measured (T-49). One step of undo. */
 export async function makeLight(card: ShapeCard, adapters: number): Promise<void> {
   shapeStore.setState({ busy: { file: card.file, what: "changing" } });
-  const answer = await ask({ kind: "light", objects: objectsOf(card.file), faces: adapters }, []);
+  const answer = await askShapes({ kind: "light", objects: objectsOf(card.file), faces: adapters }, []);
   if (answer?.kind === "not-understood") notify("bad", answer.sentence);
   if (answer?.kind !== "light") return;
   commit(words.shapes.undoLight, document => withObjects(document, answer.objects));

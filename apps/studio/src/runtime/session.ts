@@ -28,9 +28,11 @@ export async function ask<T>(method: string, path: string, body?: unknown): Prom
 }
 function took(asked: Asked<SessionInfo>): string | null {
   if (asked.kind === "no") return asked.sentence;
-  const { accounts, name } = asked.value;
+  const { accounts, name, link } = asked.value;
+  // A read-only link lets in without a name.
+  const open = !accounts || (name === null && link !== null);
   sessionStore.setState({
-    state: accounts ? (name === null ? "signed-out" : "signed-in") : "none",
+    state: open ? "none" : name === null ? "signed-out" : "signed-in",
     info: asked.value,
     ...(name === null ? {} : { invitation: null }),
   });

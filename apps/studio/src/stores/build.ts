@@ -1,6 +1,6 @@
 import { createStore } from "zustand/vanilla";
 
-export type BuildTool = "select" | "move" | "turn" | "scale" | "measure";
+export type BuildTool = "select" | "move" | "turn" | "scale" | "measure" | "mate" | "rig";
 
 /** How things are moved in Cell mode. */
 export interface BuildState {

@@ -7,7 +7,7 @@ import { writeProgram } from "../runtime/run/written-program.ts";
 import { cellStore } from "./cell.ts";
 import { commit, showDocument, theProgram, undo, withProgram } from "./document.ts";
 import { languageOf } from "./languages.ts";
-import { addAssign, addIf, addWhile, recordPoint, setVariable, stepWords } from "./program.ts";
+import { addAssign, addIf, addWhile, recordPoint, removeVariables, setVariable, stepWords } from "./program.ts";
 import { select } from "./selection.ts";
 
 const robot = robotById("staubli_rx90l")!;
@@ -94,4 +94,15 @@ test("a decision has two sides, and what was added is taken back step by step", 
   expect(theProgram()!.variables).toBeUndefined();
   undo();
   expect(theProgram()!.steps).toEqual([]);
+});
+
+test("a variable that no step names is removed; with the last of them the program has none", () => {
+  addAssign();
+  setVariable("spare", { type: "bool" });
+  removeVariables(["spare"]);
+  expect(theProgram()!.variables).toEqual({ count: { type: "int" } });
+  removeVariables(["count"]);
+  expect(theProgram()!.variables).toBeUndefined();
+  undo();
+  expect(theProgram()!.variables).toEqual({ count: { type: "int" } });
 });

@@ -15,11 +15,14 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "people"
+  | "together"
   | "fleet"
   | "shapes"
   | "run-question"
   | "demonstration"
-  | "glove";
+  | "glove"
+  | "registration"
+  | "device";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

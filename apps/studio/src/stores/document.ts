@@ -12,9 +12,31 @@ import {
 } from "@twincell/project";
 import { robotById, type Pose, type Program, type Robot } from "@twincell/core";
 import { cellStore } from "./cell.ts";
+import { notify } from "./notices.ts";
 import { knowRobotFile, ownFileOf } from "./own-robots.ts";
 
 let history: History | null = null;
+
+/** Who else edits the open cell, as far as the document has to know. */
+export interface Sharing {
+  /** The sentence of why this person may not make that change, or null. */
+  refuses(before: CellDocument, after: CellDocument): string | null;
+  /** Another cell is opened: this one is not edited together any more. */
+  ended(): void;
+}
+let sharing: Sharing | null = null;
+
+/**
+ * From here on the open cell is one that others edit too: what comes from them is another history of it. Null: it is
+ * this browser's own again, with the undo of one.
+ */
+export function shareHistory(next: History, by: Sharing): void;
+export function shareHistory(next: null, by: null): void;
+export function shareHistory(next: History | null, by: Sharing | null): void {
+  sharing = by;
+  if (next !== null) publish(next);
+  else if (history !== null) publish(createHistory(history.document));
+}
 
 /** A robot that the cell brings is known before anybody looks at the cell, also when undo brings it back. */
 function knowRobot({ robot: { id, file } }: CellDocument): void {
@@ -34,7 +56,12 @@ function publish(next: History): void {
 }
 
 /** Shows another document; undo starts afresh. */
-export const showDocument = (document: CellDocument): void => publish(createHistory(inStep(document)));
+export function showDocument(document: CellDocument): void {
+  const before = sharing;
+  sharing = null;
+  before?.ended();
+  publish(createHistory(inStep(document)));
+}
 
 /**
  * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can
@@ -65,6 +92,11 @@ export function commit(label: string, change: (document: CellDocument) => CellDo
   if (!history) return false;
   const after = inStep(change(history.document));
   if (after === history.document) return false;
+  const why = sharing?.refuses(history.document, after) ?? null;
+  if (why !== null) {
+    notify("warn", why);
+    return false;
+  }
   publish(history.commit(label, after, gesture));
   return true;
 }

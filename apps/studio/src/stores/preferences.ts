@@ -1,6 +1,7 @@
 import { COLLISION_BEHAVIOURS, type CollisionBehaviour } from "@twincell/core";
 import { collideStore } from "./collide.ts";
 import { bindingStore, type Bindings } from "./bindings.ts";
+import { headsetStore, keptChanged, keptHeadset, readKeptHeadset } from "./headset.ts";
 import { languageStore } from "./languages.ts";
 import { readServiceTravel, serviceStore, type ServiceState } from "./service.ts";
 import { viewStore, type ViewState } from "./view.ts";
@@ -15,6 +16,7 @@ interface Preferences {
   readonly languages?: Readonly<Record<string, string>>;
   readonly collision?: CollisionBehaviour;
   readonly service?: ServiceState["travel"];
+  readonly headset?: unknown;
 }
 export interface TextStore {
   getItem(key: string): string | null;
@@ -34,6 +36,7 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
   if (kept.bindings) bindingStore.setState(kept.bindings);
   if (kept.languages) languageStore.setState({ chosen: kept.languages });
   if (kept.service) serviceStore.setState({ travel: kept.service });
+  readKeptHeadset(kept.headset);
   if (kept.collision) collideStore.setState({ behaviour: kept.collision });
   const write = (): void => {
     const { theme, muted, coachDone, plots } = viewStore.getState();
@@ -50,6 +53,7 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
           languages: languageStore.getState().chosen,
           collision: collideStore.getState().behaviour,
           service: serviceStore.getState().travel,
+          headset: keptHeadset(),
         }),
       );
     } catch {
@@ -62,6 +66,9 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
     languageStore.subscribe(write),
     collideStore.subscribe(write),
     serviceStore.subscribe(write),
+    headsetStore.subscribe((now, before) => {
+      if (keptChanged(now, before)) write();
+    }),
   ];
   return () => {
     for (const stop of stops) stop();
@@ -93,6 +100,7 @@ function read(store: TextStore): Preferences {
         }
       : {}),
     service: readServiceTravel(has("service")),
+    headset: has("headset"),
     muted: has("muted") === true,
     coachDone: has("coachDone") === true,
     plots: has("plots") === true,

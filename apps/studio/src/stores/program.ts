@@ -216,6 +216,12 @@ const withVariable = (program: Program, name: string, variable: Variable): Progr
 /** Gives the program a variable, or another type and first value to one that it has. */
 export const setVariable = (name: string, variable: Variable): boolean =>
   edit(words.undo.variable, program => withVariable(program, name, variable));
+/** Takes variables out that no step names. */
+export const removeVariables = (names: readonly string[]): boolean =>
+  edit(words.undo.variable, ({ variables = {}, ...program }) => {
+    const left = Object.entries(variables).filter(([name]) => !names.includes(name));
+    return left.length === 0 ? program : { ...program, variables: Object.fromEntries(left) };
+  });
 export const addCall = (): boolean => {
   const program = theProgram();
   const { selected } = selectionStore.getState();

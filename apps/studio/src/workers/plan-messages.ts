@@ -4,10 +4,13 @@ import type {
   Detour,
   Explanation,
   PairMatrix,
+  Plan,
+  Pose,
   Program,
   RepairedProgram,
   SelfCollisionEscape,
   SuggestedBase,
+  Tracking,
 } from "@twincell/core";
 
 /** What moves with a frame of the cell, and what a person calls what stands in it. */
@@ -46,6 +49,13 @@ export type PlanTask =
       readonly to_rad: readonly number[];
     }
   | { readonly kind: "learn"; readonly robot: string; readonly cell: CellGeometry }
+  | {
+      readonly kind: "accuracy";
+      readonly plan: Plan;
+      readonly program: Program;
+      readonly robot: string;
+      readonly worldFromBase: Pose<"world", "base">;
+    }
   | ({ readonly kind: "explain"; readonly step: string } & RepairQuestion)
   | ({ readonly kind: "repair-all" } & RepairQuestion)
   | ({ readonly kind: "base-field" } & RepairQuestion);
@@ -59,6 +69,7 @@ export type FromPlanner =
   | { readonly kind: "way"; readonly id: number; readonly answer: Detour }
   | { readonly kind: "go"; readonly id: number; readonly answer: SelfCollisionEscape }
   | { readonly kind: "learnt"; readonly id: number; readonly matrix: PairMatrix }
+  | { readonly kind: "accuracy"; readonly id: number; readonly tracking: Tracking }
   | { readonly kind: "explained"; readonly id: number; readonly explanation: Explanation | null }
   | { readonly kind: "field-so-far"; readonly id: number; readonly field: BaseField }
   | {

@@ -1,4 +1,5 @@
-import type { ImportReport, LightReport, UnitGuess } from "@twincell/formats";
+import type { Pose } from "@twincell/core";
+import type { ImportReport, LightReport, Rig, UnitGuess } from "@twincell/formats";
 import type { ObjectRecord } from "@twincell/project";
 import type { KeptRobotFile } from "../stores/own-robots.ts";
 
@@ -13,7 +14,8 @@ export type ShapeRequest =
       readonly robots: boolean;
     }
   | { readonly kind: "scale"; readonly objects: readonly ObjectRecord[]; readonly factor: number }
-  | { readonly kind: "light"; readonly objects: readonly ObjectRecord[]; readonly faces: number };
+  | { readonly kind: "light"; readonly objects: readonly ObjectRecord[]; readonly faces: number }
+  | { readonly kind: "rig"; readonly rig: Rig };
 
 /** A file that was read, ready to be put into the cell. */
 export interface ImportedFile {
@@ -35,4 +37,10 @@ export type ShapeAnswer =
   | { readonly kind: "imported"; readonly files: readonly ImportedFile[] }
   | { readonly kind: "scaled"; readonly objects: readonly ObjectRecord[] }
   | { readonly kind: "light"; readonly objects: readonly ObjectRecord[]; readonly report: LightReport }
+  | {
+      readonly kind: "rigged";
+      readonly file: KeptRobotFile;
+      readonly notes: readonly string[];
+      readonly worldFromBase: Pose<"world", "base">;
+    }
   | { readonly kind: "not-understood"; readonly sentence: string };

@@ -12,9 +12,11 @@ import {
   partsForCell,
   readZip,
   robotFromFiles,
+  robotFromRig,
   STEP_ENDINGS,
   type ImportedPart,
   type OcctResult,
+  type Rig,
 } from "@twincell/formats";
 import { encodeMesh, placeParts, rescaledObjects, shapeMesh, type ObjectRecord } from "@twincell/project";
 import type { ImportedFile, ShapeAnswer, ShapeRequest } from "./shape-messages.ts";
@@ -41,6 +43,8 @@ async function answerTo(request: ShapeRequest): Promise<ShapeAnswer> {
       return { kind: "scaled", objects: rescaledObjects(request.objects, request.factor) };
     case "light":
       return light(request.objects, request.faces);
+    case "rig":
+      return rigged(request.rig);
   }
 }
 
@@ -104,6 +108,12 @@ async function robotAmong(held: ReadonlyMap<string, Uint8Array>): Promise<ShapeA
     kind: "not-understood",
     sentence: `${read.line === undefined ? "" : `Line ${read.line}: `}${read.sentence}`,
   };
+}
+
+async function rigged(rig: Rig): Promise<ShapeAnswer> {
+  const read = await robotFromRig(rig);
+  if (read.kind !== "robot") return read;
+  return { kind: "rigged", file: read.file, notes: read.notes, worldFromBase: read.worldFromBase };
 }
 
 const looksLikeStep = (path: string, bytes: Uint8Array): boolean =>

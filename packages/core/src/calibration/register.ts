@@ -78,8 +78,12 @@ export function registerPoints(pairs: readonly PointPair[]): Registration {
   return { kind: "registered", intoFromFrame, residual, sentence };
 }
 
-/** The rotation that turns k's into m's, H = Σ k mᵀ. w ≥ 0. */
-function hornRotation(H: Float64Array): Quaternion {
+/**
+ * The rotation that turns vectors k into vectors m with least Σ |R k − m|², w ≥ 0.
+ *
+ * @param H Σ k mᵀ, row by row
+ */
+export function hornRotation(H: Float64Array): Quaternion {
   const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = [...H] as [
     number,
     number,

@@ -16,6 +16,7 @@ import { checkSpeed } from "./speed.ts";
 import { checkEdges } from "./edges.ts";
 import { FindingCollector } from "./finding-collector.ts";
 import { checkFlow } from "./flow.ts";
+import { checkCarriedLoad } from "./carried-load.ts";
 import { checkPayload } from "./payload.ts";
 import { checkSignals } from "./signals.ts";
 import { checkStand } from "./stand.ts";
@@ -137,6 +138,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
               }),
           ...(cancelled === undefined ? {} : { cancelled }),
         });
+  if (cell !== undefined) checkCarriedLoad(scene, cell, collision?.carried ?? []);
   onProgress?.(1);
   const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
   const written = [...everyStep(program)];

@@ -10,6 +10,7 @@ export { keptSentence } from "./collision.ts";
 export { SHARP_RAD, tracedEdgeOf, type TracedEdgeRecord } from "./edges.ts";
 export { standOf } from "./stand.ts";
 export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";
+export { checkHand, type HandCheck, type JointLoad } from "./hand-check.ts";
 export * from "./lesson.ts";
 export { NEAR_LIMIT_RAD } from "./limits.ts";
 export { NEAR_SINGULAR_RAD } from "./singular.ts";

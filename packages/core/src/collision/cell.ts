@@ -11,6 +11,8 @@ export interface CellObject {
   readonly mesh: TriangleMesh;
   /** What may stand on it, where that is known [kg]. */
   readonly carries_kg?: number;
+  /** What it weighs, where that is known [kg]. */
+  readonly mass_kg?: number;
   /** A work piece that a gripper may take and carry (row M-19). */
   readonly graspable?: true;
 }
@@ -23,6 +25,8 @@ export interface CellGeometry {
   readonly links: readonly LinkSolid[];
   /** Solid of the tool in the flange frame. */
   readonly tool?: { readonly name: string; readonly mesh: TriangleMesh };
+  /** What the tool weighs, where that is known [kg]. */
+  readonly toolMass_kg?: number;
   /** Where the fingers of the tool meet, or where it sucks. */
   readonly flangeFromGrip?: Pose<"flange", "grip">;
   readonly objects: readonly CellObject[];

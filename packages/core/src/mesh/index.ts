@@ -7,3 +7,4 @@ export * from "./weld.ts";
 export * from "./mass.ts";
 export * from "./link-solid.ts";
 export * from "./codec.ts";
+export * from "./base64.ts";

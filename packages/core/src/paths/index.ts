@@ -13,3 +13,4 @@ export {
 } from "./curve.ts";
 export * from "./trace.ts";
 export * from "./refine.ts";
+export { surfaceFeatureAt, type SurfaceFeature } from "./surface-feature.ts";

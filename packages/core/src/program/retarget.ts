@@ -29,12 +29,15 @@ const SAME_RAD = 1e-6;
  * of the old arm. Steps inside blocks and routines as well.
  *
  * @param from  the robot the program was taught on. @param to  the robot that shall do it.
+ * @param worldFromBase     where the new robot stands.
+ * @param worldFromOldBase  where the old one stood, when that was elsewhere.
  */
 export function retargetProgram(
   program: Program,
   from: Robot,
   to: Robot,
   worldFromBase: Pose<"world", "base">,
+  worldFromOldBase: Pose<"world", "base"> = worldFromBase,
 ): Retargeted {
   const scratch = solverScratch();
   const near = Float64Array.from(to.home_rad);
@@ -72,7 +75,7 @@ export function retargetProgram(
       return { q: [...to.home_rad], ...withTool };
     }
     const tool = target.tool ?? "flange";
-    const worldFromTcp = compose(compose(worldFromBase, flangePose(from.arm, target.q)), toolOf(program, tool));
+    const worldFromTcp = compose(compose(worldFromOldBase, flangePose(from.arm, target.q)), toolOf(program, tool));
     if (reaches(worldFromTcp, tool)) return { q: Array.from(near), ...withTool };
     unreached.add(step);
     return { pose: { position: worldFromTcp.position, quaternion: worldFromTcp.quaternion }, frame: "world", tool };

@@ -7,3 +7,4 @@ export * from "./turns.ts";
 export * from "./conventions.ts";
 export * from "./mirror.ts";
 export * from "./eigen.ts";
+export * from "./symmetric.ts";

@@ -50,26 +50,43 @@ export async function drawnLinks(chain: UrdfChain, path: string, files: FileSour
     if (parts.length === 0) return [];
     return [...finishImport("", { format: "URDF", parts, statedUnit_m: 1, notes: [] }).parts];
   };
-  const visible = await lightTo(load(drawn), MOST_DRAWN);
-  const solid = await lightTo(load(solidShapes(chain)), MOST_SOLID);
-  if (visible.parts.length === 0) return { shapeError_m: 0, notes: [...new Set(notes)] };
+  return lightLinks(load(drawn), load(solidShapes(chain)), chain.arm.joints.length, notes);
+}
+
+/**
+ * The links of an arm out of their parts, with no more triangles than are drawn and judged without effort.
+ *
+ * @param drawn   what is seen; every part bears the number of its link as its name and stands in that link's frame.
+ * @param solids  what counts in collisions, likewise.
+ * @param notes   what was said before; what came of this is added.
+ */
+export async function lightLinks(
+  drawn: readonly ImportedPart[],
+  solids: readonly ImportedPart[],
+  joints: number,
+  notes: readonly string[] = [],
+): Promise<DrawnLinks> {
+  const said = [...notes];
+  const visible = await lightTo(drawn, MOST_DRAWN);
+  const solid = await lightTo(solids, MOST_SOLID);
+  if (visible.parts.length === 0) return { shapeError_m: 0, notes: [...new Set(said)] };
   if (visible.faces < visible.faces_before)
-    notes.push(
+    said.push(
       `The robot is drawn with ${visible.faces} of its ${visible.faces_before} triangles, within ${millimetres(visible.deviation_m)} mm.`,
     );
   if (solid.faces < solid.faces_before)
-    notes.push(
+    said.push(
       `Collisions are judged with ${solid.faces} of ${solid.faces_before} triangles; the ${millimetres(solid.deviation_m)} mm they are off at most are added to every margin.`,
     );
-  const links = Array.from({ length: chain.arm.joints.length + 1 }, (_, link): OwnLink => {
+  const links = Array.from({ length: joints + 1 }, (_, link): OwnLink => {
     const parts = ofLink(visible.parts, link);
-    const solids = ofLink(solid.parts, link);
+    const own = ofLink(solid.parts, link);
     return {
       parts: parts.map(({ color, mesh }) => ({ color, mesh })),
-      ...(solids.length === 0 || sameMeshes(parts, solids) ? {} : { solids: solids.map(({ mesh }) => mesh) }),
+      ...(own.length === 0 || sameMeshes(parts, own) ? {} : { solids: own.map(({ mesh }) => mesh) }),
     };
   });
-  return { links, shapeError_m: solid.deviation_m, notes: [...new Set(notes)] };
+  return { links, shapeError_m: solid.deviation_m, notes: [...new Set(said)] };
 }
 
 interface Light {

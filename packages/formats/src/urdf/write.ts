@@ -1,6 +1,12 @@
 import { toMatrix, type LinkMass, type Pose, type Quaternion, type SerialArm } from "@twincell/core";
 import { writeXml, type Written } from "../xml-write.ts";
 
+/** A mesh file of a link, and its colour, `#rrggbb`. */
+export interface MeshOfLink {
+  readonly filename: string;
+  readonly color?: string;
+}
+
 export interface UrdfOptions {
   /** Name of the robot; the arm's when absent. */
   readonly name?: string;
@@ -11,8 +17,8 @@ export interface UrdfOptions {
   readonly side?: { readonly name: string; readonly baseFromSide: Pose };
   /** Masses of links 1 … n. One without centre or inertia is left out: a URDF needs both. */
   readonly masses?: readonly LinkMass[] | undefined;
-  /** Files of the meshes of link 0 … n, in that link's frame and in metres. */
-  readonly meshesOf?: (link: number) => readonly string[];
+  /** Files of the meshes of link 0 … n that are seen and that collide, in that link's frame and in metres. */
+  readonly meshesOf?: (link: number, use: "visual" | "collision") => readonly (string | MeshOfLink)[];
 }
 
 /**
@@ -90,12 +96,22 @@ function massIn(link: number, { masses }: UrdfOptions): Written[] {
 }
 
 function shapesIn(link: number, { meshesOf }: UrdfOptions): Written[] {
-  return ["visual", "collision"].flatMap(use =>
-    (meshesOf?.(link) ?? []).map(filename =>
-      element(use, {}, [element("geometry", {}, [element("mesh", { filename })])]),
-    ),
+  return (["visual", "collision"] as const).flatMap(use =>
+    (meshesOf?.(link, use) ?? []).map(mesh => {
+      const { filename, color } = typeof mesh === "string" ? { filename: mesh, color: undefined } : mesh;
+      const shape = element("geometry", {}, [element("mesh", { filename })]);
+      return element(use, {}, use === "visual" && color !== undefined ? [shape, paint(color)] : [shape]);
+    }),
   );
 }
+
+/** Colours are named by what they are: equal ones are one material. */
+const paint = (color: string): Written =>
+  element("material", { name: color.slice(1) }, [
+    element("color", {
+      rgba: [1, 3, 5, 7].map(at => (at < 7 ? digits(parseInt(color.slice(at, at + 2), 16) / 255) : "1")).join(" "),
+    }),
+  ]);
 
 function origin({ position, quaternion }: Pose): Written {
   return element("origin", {

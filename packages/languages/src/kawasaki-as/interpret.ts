@@ -11,11 +11,13 @@ export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockEntr
   name: "AS",
   speaks: robot => sectionForLanguage(robot, "kawasaki-as") !== undefined,
   read: readSource,
+  notExecuted: ({ kept }) => kept,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(
       source,
-      (declared, signals) => new Machine(source, constants, robot, worldFromBase, declared, signals),
+      (declared, signals, notices) =>
+        new Machine({ source, constants, robot, worldFromBase, declared, signals, notices }),
     );
   },
 });

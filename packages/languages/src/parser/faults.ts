@@ -27,3 +27,6 @@ export class TextError extends Fault {
     return textFault(this, this.expected, this.message);
   }
 }
+
+/** A place that only the controller knows stands where one is needed. */
+export class NotGiven extends TextError {}

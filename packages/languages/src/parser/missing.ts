@@ -16,6 +16,10 @@ export const missingProgram = (at: TextPlace, name: string): TextError =>
 
 export const isMissingProgram = ({ expected }: Pick<TextFault, "expected">): boolean => expected === MISSING_PROGRAM;
 
+/** The program that a fault says is missing. */
+export const missingName = ({ sentence }: Pick<TextFault, "sentence">): string =>
+  sentence.slice(0, sentence.indexOf(CALLED));
+
 /** What is told of a call that was left out because a person wanted that. */
 export const leftOutSentence = ({ sentence }: Pick<TextFault, "sentence">): string =>
   `${sentence.slice(0, sentence.indexOf(CALLED))}${CALLED}what it does, motions too, is not executed.`;

@@ -1,6 +1,6 @@
 import type { Dialect, Interpreted, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
 import { checkedImport } from "../reading/checked-import.ts";
-import { isMissingProgram, leftOutSentence } from "./missing.ts";
+import { isMissingProgram, leftOutSentence, missingName } from "./missing.ts";
 import { NOT_GIVEN } from "./notices.ts";
 import { dryRun } from "./rehearse.ts";
 import { withIdentity } from "./identity.ts";
@@ -93,6 +93,15 @@ function without<A extends { readonly kind: string }>(
     }
     return said;
   };
+  /** Takes a call out of a line that holds more than it. */
+  const callGoes = (fault: TextFault): boolean => {
+    const line = lines[fault.line - 1];
+    const rest = line === undefined ? undefined : withoutCall(line, fault, shapes);
+    if (line === undefined || rest === undefined) return false;
+    skipped.push({ ...told(fault, line, [line], shapes), fault });
+    lines[fault.line - 1] = rest;
+    return true;
+  };
   let faults: readonly TextFault[] = [];
   let first: readonly TextFault[] | undefined;
   for (let reading = 0; reading < MOST_READINGS; reading++) {
@@ -112,6 +121,10 @@ function without<A extends { readonly kind: string }>(
     for (const fault of faults) {
       const at = fault.line - 1;
       const line = lines[at];
+      if (only !== undefined && callGoes(fault)) {
+        isShorter = true;
+        continue;
+      }
       if (line === undefined || gone.has(at) || !mayGo(line, shapes, only !== undefined)) continue;
       skipped.push({ ...skipBlock(fault), fault });
       isShorter = true;
@@ -121,6 +134,14 @@ function without<A extends { readonly kind: string }>(
     if (!isShorter) break;
   }
   return { kind: "not-understood", faults };
+}
+
+/** The line with nothing in place of a call, where it holds more than that: all else in it stays. */
+function withoutCall(line: string, fault: TextFault, { callInLine }: LineShapes): string | undefined {
+  if (callInLine === undefined) return undefined;
+  const name = missingName(fault).replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+  const rest = line.replace(callInLine.call(name), callInLine.instead);
+  return rest === line || rest.trim() === callInLine.instead ? undefined : rest;
 }
 
 /** Opens a block, goes on to another part of it, or closes it. */

@@ -53,6 +53,10 @@ function rapidOffers(_file: PatchFile, code: string): string[] {
   ];
 }
 
+/** `.PROGRAM name(…)`, and the programs that others are called by. */
+const programOffers = (_: PatchFile, code: string): string[] => all(code, /^[ \t]*\.PROGRAM[ \t]+([\w.]+)/gim);
+const CALLED = /\bCALL[ \t]+([A-Za-z_][\w.]*)/gi;
+
 const LANGUAGES: Readonly<
   Record<
     string,
@@ -77,6 +81,21 @@ const LANGUAGES: Readonly<
   spel: {
     remark: "'",
     offers: (_, code) => all(code, /^[ \t]*Function[ \t]+(\w+)/gim),
+  },
+  "kawasaki-as": { remark: ";", offers: programOffers, words: CALLED },
+  "v-plus": { remark: ";", offers: programOffers, words: CALLED },
+  "melfa-basic": {
+    remark: "(?:'|^[ \\t]*(?:\\d+[ \\t]+)?REM\\b)",
+    offers: ({ name }) => [baseOf(name)],
+    words: /\bCallP[ \t]*"([^"]+)"/gi,
+  },
+  pacscript: {
+    remark: "'",
+    offers: (file, code) => [
+      baseOf(file.name),
+      ...all(code, /^[ \t]*(?:(?:Public|Private)[ \t]+)?(?:Sub|Function|Program)[ \t]+(\w+)/gim),
+    ],
+    words: /\b(?:Call|Run|GoSub)[ \t]+([A-Za-z_]\w*)/gi,
   },
   krl: { remark: ";", offers: krlOffers },
   rapid: { remark: "!", offers: rapidOffers },

@@ -541,7 +541,7 @@ describe("faults have a place and say what is expected", () => {
     ["x = 5 §", 2, 7],
     ["MOVE TRANS(1)", 3, 1, "DRIVE 1,2,3"],
   ])("%s", (line: string, atLine: number, column: number, more?: string) => {
-    const answer = vPlus.interpret(body(line, ...(more === undefined ? [] : [more])), robot);
+    const answer = vPlus.parse(body(line, ...(more === undefined ? [] : [more])), robot);
     expect(answer.kind).toBe("not-understood");
     if (answer.kind !== "not-understood") return;
     expect([answer.faults[0]!.line, answer.faults[0]!.column], JSON.stringify(answer.faults)).toEqual([atLine, column]);

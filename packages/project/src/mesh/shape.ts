@@ -11,6 +11,7 @@ import {
 } from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
 import { partSolid } from "../parts/index.ts";
+import { toolMass } from "../parts/tool-mass.ts";
 
 /** Flat faces of a round shape per turn: 48 stay within 0.22 % of the radius. */
 const FACES_PER_TURN = 48;
@@ -52,16 +53,19 @@ export function shapeMesh(shape: Shape): TriangleMesh {
  */
 export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]): CellGeometry {
   const tool = document.tools.find(candidate => candidate.name === document.tool);
+  const toolMass_kg = tool === undefined ? undefined : toolMass(tool);
   return {
     worldFromBase: document.robot.worldFromBase,
     links,
     ...(tool?.shape === undefined ? {} : { tool: { name: tool.name, mesh: shapeMesh(tool.shape) } }),
+    ...(toolMass_kg === undefined ? {} : { toolMass_kg }),
     ...(tool === undefined ? {} : { flangeFromGrip: tool.flangeFromTcp as Pose as Pose<"flange", "grip"> }),
     objects: document.objects.map(object => ({
       id: object.id,
       name: object.name,
       worldFromObject: object.worldFromObject,
       mesh: shapeMesh(object.shape),
+      ...(object.mass_kg === undefined ? {} : { mass_kg: object.mass_kg }),
       ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }),
       ...(object.role === "workpiece" ? { graspable: true as const } : {}),
     })),

@@ -12,8 +12,10 @@ const SOFT_M = 0.012;
  *
  *   gap = 2 (pivot_x + tip_x cos q − tip_z sin q − pad)         height = pivot_z + tip_x sin q + tip_z cos q + end
  */
-const LINKAGE = { pivot_x: 0.0306, pivot_z: 0.0549, tip_x: 0.03716, tip_z: 0.04343, pad: 0.02526, end: 0.05067 };
+export const LINKAGE = { pivot_x: 0.0306, pivot_z: 0.0549, tip_x: 0.03716, tip_z: 0.04343, pad: 0.02526, end: 0.05067 };
 const OPEN_M = 0.085;
+/** The knuckle with the pads together, as the maker states it [rad]. */
+export const FULLY_CLOSED_RAD = 0.8;
 
 /** The knuckle angle of a 2F-85 at a gap between its pads [rad]: 0 wide open, 0.8 closed. */
 export function knuckleAngle(gap_m: number): number {

@@ -1,5 +1,6 @@
 import { z } from "zod";
 import { requestSchema } from "../ask.ts";
+import { editorMessageSchema, roomMessageSchema } from "../editing.ts";
 import { eventSchema, outcomeSchema } from "../tell.ts";
 import { PROTOCOL } from "../read.ts";
 import { API_ROUTES, API_VERSION, LEASE_HEADER, type ApiRoute } from "./routes.ts";
@@ -82,7 +83,7 @@ export function openApiDocument(version: string): Json {
 }
 
 /** Addresses of the sockets. */
-export const SOCKETS = { commands: "/stations", stream: "/api/v1/stream" } as const;
+export const SOCKETS = { commands: "/stations", stream: "/api/v1/stream", editing: "/api/v1/editing" } as const;
 
 /** AsyncAPI 3.0 of the sockets: one to look and command, one only to look. */
 export function asyncApiDocument(version: string): Json {
@@ -108,6 +109,8 @@ export function asyncApiDocument(version: string): Json {
     });
   const requests = named("request", requestSchema.options);
   const events = named("event", eventSchema.options);
+  const edits = named("edit", editorMessageSchema.options);
+  const merged = named("merge", roomMessageSchema.options);
   const refs = (names: readonly string[]): Json =>
     Object.fromEntries(names.map(name => [name, { $ref: `#/components/messages/${name}` }]));
   const at = (channel: string, names: readonly string[]): readonly Json[] =>
@@ -133,11 +136,19 @@ export function asyncApiDocument(version: string): Json {
           "Only looks: no sign of life, nothing to say. `?robot=ID` for one robot, `?rate_Hz=N` for at most so many samples a second; with `?messages_per_s=N` each message is an array of what came since the last.",
         messages: refs(looked),
       },
+      editing: {
+        address: SOCKETS.editing,
+        description:
+          "Editing a cell together: `?cell=NAME`. Updates are those of a Yjs document, each accepted or refused by the role of its sender and by whether the cell can still be opened.",
+        messages: refs([...edits, ...merged]),
+      },
     },
     operations: {
       command: { action: "receive", channel: { $ref: "#/channels/commands" }, messages: at("commands", requests) },
       answer: { action: "send", channel: { $ref: "#/channels/commands" }, messages: at("commands", events) },
       stream: { action: "send", channel: { $ref: "#/channels/stream" }, messages: at("stream", looked) },
+      edit: { action: "receive", channel: { $ref: "#/channels/editing" }, messages: at("editing", edits) },
+      merge: { action: "send", channel: { $ref: "#/channels/editing" }, messages: at("editing", merged) },
     },
     components: { messages },
   };

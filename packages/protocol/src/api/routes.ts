@@ -423,6 +423,22 @@ export const API_ROUTES = {
   },
   ...documentRoutes("program", "programs"),
   ...documentRoutes("cell", "cells"),
+  linkCell: {
+    method: "post",
+    path: "/api/v1/cells/{name}/link",
+    summary: "A link by which people look at a cell while it is edited, without an account, for 30 days",
+    tag: "documents",
+    access: "write",
+    answer: s.cellLinkSchema,
+  },
+  unlinkCell: {
+    method: "delete",
+    path: "/api/v1/cells/{name}/link",
+    summary: "Takes back all read-only links of a cell",
+    tag: "documents",
+    access: "write",
+    answer: outcomeSchema,
+  },
   listRecordings: {
     method: "get",
     path: "/api/v1/recordings",

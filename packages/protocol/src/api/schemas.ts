@@ -179,7 +179,12 @@ export const sessionSchema = z.object({
   role: role.nullable(),
   rights,
   passkeys: z.int(),
+  link: z.string().nullable().describe("Name of the cell that a read-only link lets in to; null without one."),
   training: z.boolean().describe("A server for training: it opens virtual controllers and reaches no real robot."),
+});
+export const cellLinkSchema = z.object({
+  link: z.string().describe("Address that lets people look at this cell as it is edited, and at nothing else."),
+  until: z.string().describe("ISO 8601, UTC: when it ends."),
 });
 export const signInBody = z.object({ name: text, password: z.string().min(1).max(200) });
 export const invitationBody = z.object({

@@ -1,4 +1,4 @@
-import { Axis3d, Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
+import { Axis3d, Combine, Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d, Workflow } from "lucide-react";
 import type { ReactNode } from "react";
 import { useStore } from "zustand";
 import { buildStore, chooseTool, type BuildState, type BuildTool } from "../../stores/build.ts";
@@ -15,13 +15,15 @@ const TOOLS: readonly { readonly tool: BuildTool; readonly glyph: ReactNode; rea
   { tool: "turn", glyph: <Rotate3d />, keys: "E" },
   { tool: "scale", glyph: <Scale3d />, keys: "R" },
   { tool: "measure", glyph: <Ruler />, keys: "M" },
+  { tool: "mate", glyph: <Combine />, keys: "J" },
+  { tool: "rig", glyph: <Workflow /> },
 ];
 const GRIDS_M = [0, 0.001, 0.005, 0.01, 0.05, 0.1] as const;
 const DISPLAYS: readonly BuildState["display"][] = ["smooth", "flat", "wire", "points"];
 const NO_SECTION = "none";
 const SECTIONS_M = [0.25, 0.5, 0.75, 1, 1.5, 2] as const;
 const gridWords = (grid_m: number): string =>
-  grid_m === 0 ? words.build.noGrid : `${words.build.grid} ${showNumber(grid_m, "length", 0)} mm`;
+  grid_m === 0 ? words.build.noGrid : `${showNumber(grid_m, "length", 0)} mm`;
 
 /** One bar over the view: with what objects are moved, and onto what they snap. */
 export function ToolBar() {
@@ -46,9 +48,13 @@ export function ToolBar() {
       ))}
       <i className="build-line" aria-hidden />
       <Tip words={words.build.snapTip} keys="S">
-        <button className="btn quiet" aria-pressed={snap} onClick={() => runCommand("build.snap")}>
+        <button
+          className="btn quiet icon"
+          aria-label={words.build.snap}
+          aria-pressed={snap}
+          onClick={() => runCommand("build.snap")}
+        >
           <Magnet />
-          {words.build.snap}
         </button>
       </Tip>
       <Chooser

@@ -27,7 +27,7 @@ import {
   type WhileStep,
 } from "@twincell/core";
 import { useId, useState } from "react";
-import { changeStep, firstArguments, setVariable } from "../../stores/program.ts";
+import { changeStep, firstArguments, removeVariables, setVariable } from "../../stores/program.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
@@ -194,6 +194,7 @@ export function AssignFields({ program, step }: { program: Program; step: Assign
     );
   };
   const taken = { ...program.signals, ...variables };
+  const unused = Object.keys(variables).filter(name => usesOf(program, name) === 0);
   const wrong = naming === null || naming === "" ? undefined : variableNameFault(naming, taken);
   const make = (): void => {
     if (naming !== null && naming !== "" && wrong === undefined) {
@@ -257,6 +258,11 @@ export function AssignFields({ program, step }: { program: Program; step: Assign
         />
       </div>
       {variable !== undefined && <VariableFields program={program} name={step.variable} variable={variable} />}
+      {unused.length > 0 && (
+        <button className="btn" title={unused.join(", ")} onClick={() => removeVariables(unused)}>
+          {words.step.removeUnused(unused.length)}
+        </button>
+      )}
     </>
   );
 }

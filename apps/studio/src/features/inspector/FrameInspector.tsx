@@ -1,5 +1,7 @@
-import { attachFrame, placeFrame, type CellDocument } from "@twincell/project";
+import { Trash2 } from "lucide-react";
+import { attachFrame, placeFrame, removeFrame, usesOfFrame, type CellDocument } from "@twincell/project";
 import { commit } from "../../stores/document.ts";
+import { select } from "../../stores/selection.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { words } from "../../messages/index.ts";
 import { AttachedTo } from "./AttachedTo.tsx";
@@ -8,6 +10,13 @@ import { PoseFields } from "./PoseFields.tsx";
 export function FrameInspector({ document, name }: { document: CellDocument; name: string }) {
   const frame = document.frames.find(each => each.name === name);
   if (!frame) return <p className="empty">{words.inspector.nothing}</p>;
+  const uses = usesOfFrame(document, name);
+  const remove = (): void => {
+    const done = commit(words.inspector.removeFrame, before => removeFrame(before, name));
+    if (!done) return;
+    if (jogStore.getState().userFrame === name) jogStore.setState({ frame: "world", userFrame: "" });
+    select(null);
+  };
   return (
     <section aria-label={name}>
       <h2 className="heading">
@@ -33,6 +42,11 @@ export function FrameInspector({ document, name }: { document: CellDocument; nam
         <button className="btn" onClick={() => jogStore.setState({ frame: "user", userFrame: name })}>
           {words.commands.frame(name)}
         </button>
+        <button className="btn" disabled={uses > 0} onClick={remove}>
+          <Trash2 />
+          {words.inspector.removeFrame}
+        </button>
+        {uses > 0 && <p className="small muted">{words.inspector.frameUsed(uses)}</p>}
       </div>
     </section>
   );

@@ -1,4 +1,5 @@
 import { type MoveStep, type Program, type Speed } from "@twincell/core";
+import { useStore } from "zustand";
 import { solveStep } from "../../runtime/jog/solve.ts";
 import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
@@ -7,6 +8,7 @@ import { changeMove } from "../../stores/program.ts";
 import { choosePath, countFrom, countsFrom, JOINTS, takeVia } from "../../stores/structure.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
+import { showNumber } from "../../ui/expression.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../messages/index.ts";
 import { firstCondition, LineCondition } from "./LineFields.tsx";
@@ -124,8 +126,23 @@ function SpeedFields({ step, change }: { readonly step: MoveStep; readonly chang
           />
         )}
       </Pair>
+      {step.path !== "ptp" && <BeltSpeeds onChoose={mps => set({ mps })} />}
     </>
   );
+}
+
+/** The tool goes as fast as a conveyor of the cell (row M-56). */
+function BeltSpeeds({ onChoose }: { readonly onChoose: (mps: number) => void }) {
+  const objects = useStore(cellStore, state => state.document?.objects);
+  const belts = (objects ?? []).filter(({ belt }) => belt !== undefined && belt.speed_mps !== 0);
+  return belts.map(({ id, name, belt }) => {
+    const mps = Math.abs(belt?.speed_mps ?? 0);
+    return (
+      <button key={id} className="btn small" onClick={() => onChoose(mps)}>
+        {words.step.asBelt(name, showNumber(mps, "speed", 0))}
+      </button>
+    );
+  });
 }
 
 /** By a length, or by a share of the shorter neighbouring path: never both. */

@@ -19,6 +19,7 @@ import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
 import { PartFields } from "./PartFields.tsx";
 import { PoseFields } from "./PoseFields.tsx";
+import { WorkPiecePath } from "./WorkPiecePath.tsx";
 
 const SIDES = [words.inspector.width, words.inspector.depth, words.inspector.height] as const;
 const MARKS = ["X", "Y", "Z"] as const;
@@ -89,6 +90,7 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
           />
         </div>
         <Physical object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
+        <WorkPiecePath object={object} />
         {shape.kind === "mesh" && <MeshSize object={object} />}
         {object.role !== "workpiece" && shape.kind !== "part" && (
           <button className="btn small" title={words.tools.makeToolSays} onClick={() => makeTool(object)}>

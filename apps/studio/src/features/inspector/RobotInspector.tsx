@@ -1,5 +1,6 @@
 import { standLoad } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
+import { robotFileFor, saveRobotFile, saveUrdf } from "../../runtime/robot-files.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
@@ -39,6 +40,14 @@ export function RobotInspector({ document }: { document: CellDocument }) {
         <button className="btn" onClick={() => runCommand("cell.robot")}>
           {words.robots.another}
         </button>
+        <div className="robot-files">
+          <button className="btn small" onClick={() => saveRobotFile(robotFileFor(robot), robot)}>
+            {words.own.saveFile}
+          </button>
+          <button className="btn small" title={words.own.saveUrdfSays} onClick={() => void saveUrdf(robot)}>
+            {words.own.saveUrdf}
+          </button>
+        </div>
         {robot.madeUpGeometry && (
           <p className="export-proof small">
             <i className="mark" data-verdict="warn" aria-hidden />

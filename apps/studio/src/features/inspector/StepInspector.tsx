@@ -7,6 +7,7 @@ import { words } from "../../messages/index.ts";
 import { MessageFields, PalletFields, PayloadFields } from "./BlockFields.tsx";
 import { AssignFields, CallFields, ConditionField } from "./ComputeFields.tsx";
 import { MoveFields } from "./MoveFields.tsx";
+import { StepComments } from "./StepComments.tsx";
 import { CommentFields, RepeatFields, SetFields, WaitForFields } from "./SignalFields.tsx";
 
 export function StepInspector({ program, step, index }: { program: Program; step: Step; index: number }) {
@@ -99,6 +100,7 @@ export function StepInspector({ program, step, index }: { program: Program; step
           </button>
         </div>
       </div>
+      <StepComments key={step.id} step={step.id} />
     </section>
   );
 }

@@ -4,9 +4,11 @@ import {
   partNumbers,
   pointsTaughtWith,
   swappedTool,
+  toolMass,
   type CellDocument,
   type ToolRecord,
 } from "@twincell/project";
+import { saveGripperUrdf } from "../../runtime/robot-files.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { commit, toolOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
@@ -77,6 +79,19 @@ export function ToolInspector({ document }: { document: CellDocument }) {
         {tool && (
           <>
             <ToolNumbers tool={tool} />
+            <div className="pair">
+              <span className="label">{words.parts.mass}</span>
+              <NumberField
+                label={words.parts.mass}
+                mark="kg"
+                quantity="plain"
+                decimals={3}
+                min={0.001}
+                max={10_000}
+                value={toolMass(tool) ?? 0}
+                onChange={(mass_kg, done) => changeTool(tool.name, each => ({ ...each, mass_kg }), done)}
+              />
+            </div>
             <h3 className="label">{words.inspector.tcp}</h3>
             <PoseFields
               pose={tool.flangeFromTcp}
@@ -84,6 +99,11 @@ export function ToolInspector({ document }: { document: CellDocument }) {
                 changeTool(tool.name, each => ({ ...each, flangeFromTcp: { position, quaternion } }), done)
               }
             />
+            {tool.shape?.kind === "part" && tool.shape.part === "two-fingers" && (
+              <button className="btn small" title={words.tools.gripperUrdfSays} onClick={() => void saveGripperUrdf()}>
+                {words.own.saveUrdf}
+              </button>
+            )}
             <button className="btn small" onClick={() => remove(tool.name)}>
               {words.tools.remove}
             </button>

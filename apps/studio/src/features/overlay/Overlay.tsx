@@ -6,6 +6,7 @@ import { readFrame, readTcp } from "../../runtime/jog/readout.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { worldFromFrameOf } from "../../stores/document.ts";
+import { buildStore } from "../../stores/build.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { traceStore } from "../../stores/trace.ts";
@@ -44,6 +45,9 @@ function ConnectionBadge() {
 function Hint() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  const dragged = useStore(buildStore, ({ tool }) => tool === "move" || tool === "turn" || tool === "scale");
+  // The other tools say in a card of their own what is to be done.
+  if (mode === "cell" && !dragged) return null;
   const hint =
     mode === "cell"
       ? words.view.hintCell

@@ -1,9 +1,10 @@
 import { useStore } from "zustand";
 import { jogStore, JOG_STEPS_M, LARGEST_DRAG, SMALLEST_DRAG, type JogState } from "../../stores/jog.ts";
+import { followTargetStore, showFollowTarget } from "../../stores/follow-target.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Slide } from "../../ui/Slide.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 
 /** A step in mm has its step in degrees beside it. */
 const stepDegrees = (step_m: number): number => Math.min(10, Math.max(0.01, step_m * 200));
@@ -81,4 +82,33 @@ export function DragManner() {
     </div>
   );
 }
+
+/** The target sphere: the jog keys move it, the arm follows, and how far the tool is from it is said. */
+export function TargetManner() {
+  const { on, kind, off_m, joint, why } = useStore(followTargetStore);
+  const jointFrame = useStore(jogStore, state => state.frame === "joint");
+  const off = showNumber(off_m, "length", 1);
+  const status = {
+    "on-target": words.jog.targetThere,
+    behind: words.jog.targetBehind(off, joint ?? 0),
+    "out-of-reach": words.jog.targetOut(off),
+  }[kind];
+  return (
+    <>
+      <div className="point-row">
+        <span className="point-label">{words.jog.target}</span>
+        <button className="btn" aria-pressed={on} title={words.jog.targetTip} onClick={() => showFollowTarget(!on)}>
+          {words.jog.targetFollow}
+        </button>
+      </div>
+      {on && (
+        <p className="small target-status" role="status" data-verdict={jointFrame ? "ok" : VERDICTS[kind]}>
+          {jointFrame ? words.jog.targetJoints : why === null ? status : `${status} ${say(why)}`}
+        </p>
+      )}
+    </>
+  );
+}
+const VERDICTS = { "on-target": "ok", behind: "warn", "out-of-reach": "bad" } as const;
+
 const DRAG_SCALES = [SMALLEST_DRAG, 0.2, 0.5, 1, LARGEST_DRAG] as const;

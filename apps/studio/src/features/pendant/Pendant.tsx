@@ -14,7 +14,7 @@ import { say, words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
 import { Connection } from "./Connection.tsx";
 import { JointGauges } from "./JointGauges.tsx";
-import { DragManner, JogMode } from "./Manner.tsx";
+import { DragManner, JogMode, TargetManner } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
 import "../../ui/axis.css";
 import "./pendant.css";
@@ -54,6 +54,7 @@ export function Pendant() {
         )}
         <JogMode />
         <DragManner />
+        <TargetManner />
         <PointButtons />
       </div>
     </section>

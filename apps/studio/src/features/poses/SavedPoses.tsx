@@ -1,15 +1,19 @@
-import { FolderOpen, LocateFixed, MapPinPlus, Route, Save, Trash2 } from "lucide-react";
+import { FolderOpen, LocateFixed, MapPinPlus, Navigation, Route, Save, Trash2 } from "lucide-react";
+import type { Pose } from "@twincell/core";
 import { savedCoords } from "@twincell/project";
 import { useMemo, useRef } from "react";
 import { useStore } from "zustand";
+import { goThere } from "../../runtime/jog/go-to-point.ts";
+import { solveTcp } from "../../runtime/jog/solve.ts";
 import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { notify } from "../../stores/notices.ts";
 import { forgetPoses, keepPose, movePose, movesThroughPoses, posesText, readPoses } from "../../stores/poses.ts";
+import { theRobot } from "../../stores/document.ts";
 import { download } from "../../ui/download.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../messages/index.ts";
+import { say, words } from "../../messages/index.ts";
 import "./poses.css";
 
 /** Poses of the tool tip that a person keeps: taken, put elsewhere, loaded, saved, and driven through. */
@@ -42,12 +46,21 @@ export function SavedPoses() {
           <p className="small muted">{words.poses.none}</p>
         ) : (
           <ul className="poses-list">
-            {poses.map(({ name, worldFromFrame: { position } }) => (
+            {poses.map(({ name, worldFromFrame: { position, quaternion } }) => (
               <li key={name} className="poses-row">
                 <span className="poses-name" title={name}>
                   {name}
                 </span>
                 <span className="num small dim">{position.map(value => showNumber(value, "length")).join("  ")}</span>
+                <Tip words={words.poses.goToTip}>
+                  <button
+                    className="btn quiet icon tight"
+                    aria-label={words.poses.goTo(name)}
+                    onClick={() => goTo(name, { position, quaternion })}
+                  >
+                    <Navigation />
+                  </button>
+                </Tip>
                 <Tip words={words.poses.putTip}>
                   <button
                     className="btn quiet icon tight"
@@ -108,4 +121,13 @@ export function SavedPoses() {
       </div>
     </section>
   );
+}
+
+/** The robot goes to a saved pose by its joints, as it goes to a point of a program (row L-27); or why it cannot. */
+function goTo(name: string, worldFromTcp: Pose<"world", "tcp">): void {
+  const robot = theRobot();
+  if (!robot) return;
+  const there = solveTcp(worldFromTcp, theLive().q_rad);
+  if (there.kind === "reached") goThere(robot, there.q_rad);
+  else notify("warn", words.poses.notThere(name), say(there.sentence));
 }

@@ -1,6 +1,7 @@
 import type { Robot } from "@twincell/core";
 import { DRIVER_KINDS, drivesRobot } from "@twincell/controllers";
 import { useMemo } from "react";
+import { robotFileFor, saveRobotFile, saveUrdf } from "../../runtime/robot-files.ts";
 import { languagesOf } from "../../stores/languages.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { say, words } from "../../messages/index.ts";
@@ -91,6 +92,14 @@ export function Details({
           </ul>
         </>
       )}
+      <div className="robot-files">
+        <button type="button" className="btn small" onClick={() => saveRobotFile(robotFileFor(robot), robot)}>
+          {words.own.saveFile}
+        </button>
+        <button type="button" className="btn small" title={words.own.saveUrdfSays} onClick={() => void saveUrdf(robot)}>
+          {words.own.saveUrdf}
+        </button>
+      </div>
       {onRemove && (
         <button type="button" className="btn small" onClick={() => onRemove(robot)}>
           {words.own.remove(robot.name)}

@@ -1,4 +1,4 @@
-import { soundStore, type Sound } from "../../stores/sound.ts";
+import { soundStore, type Sound, type SoundState } from "../../stores/sound.ts";
 import { viewStore } from "../../stores/view.ts";
 
 /** One short tone: frequency glides from → to [Hz] while it fades. */
@@ -37,11 +37,30 @@ export function startSounds(): () => void {
     const context = audio;
     // Before the first gesture a browser keeps audio suspended: a late warning helps nobody, so it is not queued.
     if (context.state === "suspended") void context.resume();
-    for (const tone of TONES[now.last]) playTone(context, tone);
+    const out = outletFor(context, now.from);
+    for (const tone of TONES[now.last]) playTone(context, tone, out);
   });
 }
 
-function playTone(context: AudioContext, tone: Tone): void {
+/** Sounds are as loud as they are told up to here, and get quieter beyond [m]. */
+const LOUD_WITHIN_M = 1;
+
+/** Where the tone goes: to both ears alike, or as from that place before a listener who looks along −z. */
+function outletFor(context: AudioContext, from: SoundState["from"]): AudioNode {
+  if (from === null) return context.destination;
+  const panner = new PannerNode(context, {
+    panningModel: "HRTF",
+    distanceModel: "inverse",
+    refDistance: LOUD_WITHIN_M,
+    positionX: from[0],
+    positionY: from[1],
+    positionZ: from[2],
+  });
+  panner.connect(context.destination);
+  return panner;
+}
+
+function playTone(context: AudioContext, tone: Tone, out: AudioNode): void {
   const oscillator = context.createOscillator();
   const volume = context.createGain();
   const start = context.currentTime + tone.start_s;
@@ -52,7 +71,7 @@ function playTone(context: AudioContext, tone: Tone): void {
   volume.gain.setValueAtTime(0.0001, start);
   volume.gain.exponentialRampToValueAtTime(tone.gain, start + 0.008);
   volume.gain.exponentialRampToValueAtTime(0.0001, end);
-  oscillator.connect(volume).connect(context.destination);
+  oscillator.connect(volume).connect(out);
   oscillator.start(start);
   oscillator.stop(end + 0.02);
 }

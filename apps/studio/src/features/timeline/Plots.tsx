@@ -12,11 +12,12 @@ import { viewStore } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { say, words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
+import { AccuracyPlot } from "./AccuracyPlot.tsx";
 import { plotData } from "./plotData.ts";
 import { speedPlot } from "./speedPlot.ts";
 import { torquePlot } from "./torquePlot.ts";
 
-type What = "angles" | "speeds" | "tcp" | "torques";
+type What = "angles" | "speeds" | "tcp" | "torques" | "accuracy";
 const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3", "#a3b53a"];
 const HEIGHT = 124;
 /** Room of the numbers at the left: the time line begins as far in, so that blocks and curves stand over each other. */
@@ -46,7 +47,7 @@ export default function Plots({ plan }: { plan: Plan }) {
   }, [plan, what]);
   useEffect(() => {
     const element = host.current;
-    if (!element) return undefined;
+    if (!element || what === "accuracy") return undefined;
     const style = getComputedStyle(element);
     const colour = (name: string): string => style.getPropertyValue(name);
     const unit = { angles: words.time.deg, speeds: words.time.degS, tcp: words.time.mmS, torques: words.time.percent }[
@@ -148,9 +149,12 @@ export default function Plots({ plan }: { plan: Plan }) {
           { value: "speeds", words: words.time.speeds },
           { value: "tcp", words: words.time.tcpSpeed },
           { value: "torques", words: words.time.torques },
+          { value: "accuracy", words: words.time.accuracy },
         ]}
       />
-      {torques?.kind === "unknown" ? (
+      {what === "accuracy" ? (
+        <AccuracyPlot plan={plan} />
+      ) : torques?.kind === "unknown" ? (
         <p className="empty">{say(torques.sentence)}</p>
       ) : (
         <div ref={host} className="plot-host" />

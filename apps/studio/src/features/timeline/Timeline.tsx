@@ -1,5 +1,6 @@
 import { ChartSpline, Pause, Play, SkipBack, SkipForward, Weight } from "lucide-react";
 import { lazy, Suspense, useEffect, useMemo, useRef, type KeyboardEvent, type PointerEvent } from "react";
+import type { Program } from "@twincell/core";
 import { selectedProgram } from "@twincell/project";
 import { useStore } from "zustand";
 import { onFrame } from "../../runtime/jog/jog-frames.ts";
@@ -11,12 +12,13 @@ import { programOf, robotOf } from "../../stores/document.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { physicsStore } from "../../stores/physics.ts";
 import { playStore } from "../../stores/play.ts";
-import { stepsToRepair } from "../../stores/program.ts";
+import { findStep, stepsToRepair, stepWords } from "../../stores/program.ts";
 import { seek } from "../../stores/seek.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../messages/index.ts";
+import { laneBars, type LaneBar } from "./lanes.ts";
 import { timelineBlocks, type Block } from "./blocks.ts";
 import "./timeline.css";
 
@@ -33,11 +35,15 @@ export function Timeline() {
     () => (plan && program ? timelineBlocks(program, plan, verdict, path) : []),
     [program, plan, verdict, path],
   );
+  const lanes = useMemo(() => (plan && program ? laneBars(program, plan) : []), [program, plan]);
   return (
     <div className="timeline" data-plots={plots && plan && plan.duration_s > 0 ? true : undefined}>
       <Transport hasPlan={plan !== null && plan.duration_s > 0} />
       {plan && plan.duration_s > 0 ? (
-        <Track blocks={blocks} duration_s={plan.duration_s} />
+        <div className="track-area">
+          {lanes.length > 0 && program && <Lanes bars={lanes} duration_s={plan.duration_s} program={program} />}
+          <Track blocks={blocks} duration_s={plan.duration_s} />
+        </div>
       ) : (
         <p className="timeline-empty">{words.time.empty}</p>
       )}
@@ -140,6 +146,50 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
     </div>
   );
 }
+
+/** Loops and pallets over the steps that they hold, with a tick where each pass begins; a click selects the block. */
+function Lanes({
+  bars,
+  duration_s,
+  program,
+}: {
+  readonly bars: readonly LaneBar[];
+  readonly duration_s: number;
+  readonly program: Program;
+}) {
+  const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : null));
+  const deepest = Math.min(MOST_LANES, 1 + Math.max(...bars.map(({ depth }) => depth)));
+  const percent = (t_s: number): string => `${(100 * t_s) / duration_s}%`;
+  return (
+    <div className="lanes" style={{ height: deepest * LANE_PX }}>
+      {bars
+        .filter(({ depth }) => depth < MOST_LANES)
+        .map(({ key, step, depth, start_s, end_s, passes_s }) => {
+          const found = findStep(program, step);
+          const name = found ? stepWords(found.step, found.index) : step;
+          const says = passes_s.length > 1 ? words.time.passes(name, passes_s.length) : name;
+          return (
+            <button
+              key={key}
+              className="lane"
+              data-on={step === selected}
+              title={says}
+              style={{ top: depth * LANE_PX, left: percent(start_s), width: percent(end_s - start_s) }}
+              onClick={() => select({ kind: "step", id: step })}
+            >
+              {passes_s.slice(1).map(at_s => (
+                <i key={at_s} style={{ left: `${(100 * (at_s - start_s)) / (end_s - start_s)}%` }} aria-hidden />
+              ))}
+              <span>{says}</span>
+            </button>
+          );
+        })}
+    </div>
+  );
+}
+const LANE_PX = 18;
+/** Blocks nested deeper are in the list of steps alone. */
+const MOST_LANES = 3;
 
 /** Blocks and the playhead. The playhead is moved by style in the frame loop, not by React. */
 function Track({ blocks, duration_s }: { blocks: readonly Block[]; duration_s: number }) {

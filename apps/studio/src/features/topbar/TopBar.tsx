@@ -13,6 +13,7 @@ import { language, words } from "../../messages/index.ts";
 import { languages, nameOf } from "../../messages/languages.ts";
 import { CellName } from "./CellName.tsx";
 import { ControllerChip } from "./ControllerChip.tsx";
+import { Editors } from "./Editors.tsx";
 import { Override } from "./Override.tsx";
 import { StopButton } from "./StopButton.tsx";
 import "./topbar.css";
@@ -21,7 +22,19 @@ const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"
 const MENU: readonly (readonly string[])[] = [
   ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],
-  ["view.cameras", "view.people", "view.fleet", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
+  [
+    "view.together",
+    "view.cameras",
+    "view.marker",
+    "view.people",
+    "view.fleet",
+    "view.collision",
+    "view.registration",
+    "help.device",
+    "help.controls",
+    "help.shortcuts",
+    "help.coach",
+  ],
 ];
 
 /** A phone has no room for these beside the menu. */
@@ -39,6 +52,7 @@ export function TopBar({ phone }: { phone: boolean }) {
       {!phone && (
         <>
           <CellName />
+          <Editors />
           <UndoRedo />
         </>
       )}

@@ -8,6 +8,7 @@ import {
   Grid3x3,
   Grip,
   Hourglass,
+  MessageCircle,
   MessageSquare,
   MoreVertical,
   Octagon,
@@ -20,6 +21,10 @@ import {
 } from "lucide-react";
 import { ContextMenu, DropdownMenu } from "radix-ui";
 import { useState, type CSSProperties, type KeyboardEvent } from "react";
+import { useStore } from "zustand";
+import { cellStore } from "../../stores/cell.ts";
+import { openComments } from "../../stores/comments.ts";
+import { colourOf, togetherStore } from "../../stores/together.ts";
 import { commit, withProgram } from "../../stores/document.ts";
 import { copySteps, deleteSteps, renameStep, stepWords } from "../../stores/program.ts";
 import { words } from "../../messages/index.ts";
@@ -96,6 +101,7 @@ export function ProgramRowView(props: Props) {
             >
               <Glyph row={row} />
               <span className="name">{name}</span>
+              {row.kind === "step" && <Others step={row.step.id} />}
               <span className="visually-hidden">{words.tree.verdicts[row.verdict]}</span>
               {row.kind === "group" ? (
                 <span className="kind">{words.tree.points(row.steps.length)}</span>
@@ -143,6 +149,38 @@ export function ProgramRowView(props: Props) {
         </ContextMenu.Portal>
       )}
     </ContextMenu.Root>
+  );
+}
+
+/** Who else has that step selected, and how many comments on it are open. */
+function Others({ step }: { readonly step: string }) {
+  const program = useStore(cellStore, state => state.document?.program);
+  const editors = useStore(togetherStore, state => state.editors);
+  const comments = useStore(cellStore, state => openComments(state, step));
+  const here = editors.filter(
+    ({ presence }) =>
+      presence?.program === program && presence?.selected?.kind === "step" && presence.selected.id === step,
+  );
+  return (
+    <>
+      {here.map(editor => (
+        <i
+          key={editor.connection}
+          className="row-editor"
+          role="img"
+          aria-label={words.together.selects(editor.who)}
+          title={words.together.selects(editor.who)}
+          style={{ background: colourOf(editor) }}
+        />
+      ))}
+      {comments > 0 && (
+        <span className="row-comments" title={words.together.count(comments)}>
+          <MessageCircle aria-hidden />
+          {comments}
+          <span className="visually-hidden">{words.together.count(comments)}</span>
+        </span>
+      )}
+    </>
   );
 }
 

@@ -56,6 +56,10 @@ export const cellWords = {
     assumptions: "Angenommen, nicht veröffentlicht",
     object: "Objekt",
     position: "Position",
+    removeFrame: "Frame entfernen",
+    "frameUsed(n: number)":
+      "{n, plural, one {# Punkt oder Palette zählt} other {# Punkte und Paletten zählen}} von ihm aus; " +
+      "zuerst diese ändern.",
     attachedTo: "Befestigt an",
     attachedToCell: "Der Zelle",
     size: "Größe",
@@ -237,6 +241,9 @@ export const cellWords = {
     "removed(name)": "{name} wurde gelöscht. Rückgängig bringt es zurück.",
   },
   parts: {
+    path: "Weg im Programm",
+    "pathSays(mm, s)": "{mm} mm in {s} s",
+    savePath: "Weg speichern",
     opening: "Öffnung",
     title: "Teilebibliothek",
     "search(n: number)": "{n} Teile durchsuchen",
@@ -287,7 +294,15 @@ export const cellWords = {
     colour: "Farbe",
   },
   build: {
-    tools: { select: "Auswählen", move: "Verschieben", turn: "Drehen", scale: "Skalieren", measure: "Messen" },
+    tools: {
+      select: "Auswählen",
+      move: "Verschieben",
+      turn: "Drehen",
+      scale: "Skalieren",
+      measure: "Messen",
+      mate: "Fügen",
+      rig: "Roboter bauen",
+    },
     bar: "Werkzeuge der Zelle",
     snap: "Fangen",
     snapTip: "Bündig mit Boden, Flächen und Mitten anderer Objekte, sonst am Raster. Umschalt schaltet es ab.",

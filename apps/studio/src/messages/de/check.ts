@@ -176,6 +176,13 @@ export const checkWords = {
     speeds: "Achsgeschwindigkeiten",
     torques: "Drehmomente",
     tcpSpeed: "TCP-Tempo",
+    "passes(name, n: number)": "{name} · {n} Durchgänge",
+    accuracy: "Genauigkeit",
+    worstError: "Größter Fehler",
+    rmsError: "Mittlerer Fehler (RMS)",
+    "accuracyWorking(p: number)": "Die Antriebe werden bei fünf Geschwindigkeiten simuliert … {p} %",
+    accuracyNote:
+      "Simulierte Antriebe: Feder und Dämpfer an jeder Achse; Massen und Momentgrenzen, ohne Reibung und Spiel.",
     programmed: "programmiert",
     mmS: " mm/s",
     limit: "Grenze",

@@ -3,6 +3,7 @@ import type { en } from "../en/index.ts";
 import { cellWords } from "./cell.ts";
 import { checkWords } from "./check.ts";
 import { controlWords } from "./control.ts";
+import { device } from "./device.ts";
 import { direct } from "./direct.ts";
 import { editor } from "./editor.ts";
 import { peopleWords } from "./people.ts";
@@ -10,15 +11,20 @@ import { fleetWords } from "./fleet.ts";
 import { headset } from "./headset.ts";
 import { glove } from "./glove.ts";
 import { lesson } from "./lesson.ts";
+import { marker } from "./marker.ts";
 import { offline } from "./offline.ts";
 import { own } from "./own.ts";
 import { phone } from "./phone.ts";
 import { recordsWords } from "./records.ts";
+import { process } from "./process.ts";
+import { mate, rig } from "./rig.ts";
+import { registration } from "./registration.ts";
 import { scene } from "./scene.ts";
 export { sentences } from "./sentences.ts";
 import { shellWords } from "./shell.ts";
 import { teachWords } from "./teach.ts";
 import { textWords } from "./text.ts";
+import { togetherWords } from "./together.ts";
 import { tools } from "./tools.ts";
 import { videoWords } from "./video.ts";
 
@@ -30,6 +36,7 @@ export const catalogue: Translation<typeof en> = {
   ...checkWords,
   ...controlWords,
   ...recordsWords,
+  device,
   direct,
   editor,
   people: peopleWords,
@@ -37,11 +44,17 @@ export const catalogue: Translation<typeof en> = {
   fleet: fleetWords,
   headset,
   lesson,
+  marker,
   offline,
   own,
   phone,
+  mate,
+  process,
+  rig,
+  registration,
   scene,
   text: textWords,
+  together: togetherWords,
   tools,
   video: videoWords,
 };

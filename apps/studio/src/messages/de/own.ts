@@ -3,6 +3,9 @@ import type { own as english } from "../en/own.ts";
 
 /** Eigene Roboter. */
 export const own: Translation<typeof english> = {
+  saveFile: "Roboterdatei speichern",
+  saveUrdf: "URDF speichern",
+  saveUrdfSays: "Ein ZIP mit der URDF, ihren Netzen, Grenzen, Massen und Trägheiten.",
   add: "Aus einer Datei …",
   addHint: "URDF, xacro, Roboterdatei, D-H-Tabelle oder ein ZIP mit den Netzen",
   typed: "D-H-Tabelle eingeben …",

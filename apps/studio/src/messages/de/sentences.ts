@@ -3,7 +3,9 @@ import { saidByChecks } from "./said/checks.ts";
 import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
 import { saidByRobots } from "./said/robots.ts";
+import { saidTogether } from "./said/together.ts";
 import { saidByTexts } from "./said/texts.ts";
+import { saidByVision } from "./said/vision.ts";
 
 /** German: what packages say. */
 export const sentences: Sentences = {
@@ -12,4 +14,6 @@ export const sentences: Sentences = {
   ...saidByReaders,
   ...saidByTexts,
   ...saidByExport,
+  ...saidByVision,
+  ...saidTogether,
 };

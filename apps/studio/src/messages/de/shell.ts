@@ -176,6 +176,8 @@ export const shellWords = {
     turnTool: "Objekte drehen",
     scaleTool: "Objekte vergrößern oder verkleinern",
     measureTool: "Messen",
+    mateTool: "Flächen oder Achsen zweier Objekte fügen",
+    rigTool: "Aus importierten Teilen einen Roboter bauen",
     snap: "Fangen ein oder aus",
     handleAxes: "Griffe entlang der Welt oder des Objekts",
     stop: "Alles anhalten",

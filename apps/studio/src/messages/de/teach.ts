@@ -4,6 +4,7 @@ import type { teachWords as english } from "../en/teach.ts";
 /** German: jogging, steps, traces, demonstrations, saved poses, and what undo is called. */
 export const teachWords = {
   step: {
+    "asBelt(name, speed)": "So schnell wie {name}: {speed} mm/s",
     "point(n: number)": "Punkt {n}",
     "wait(s: number)": "{s} s warten",
     open: "Greifer öffnen",
@@ -26,6 +27,8 @@ export const teachWords = {
     condition: "Bedingung",
     variable: "Variable",
     value: "Wert",
+    "removeUnused(n: number)":
+      "{n, plural, one {# unbenutzte Variable entfernen} other {# unbenutzte Variablen entfernen}}",
     newVariable: "Neue Variable …",
     newVariableName: "Name der neuen Variable",
     kindOfValue: "Art",
@@ -77,6 +80,7 @@ export const teachWords = {
   },
   undo: {
     errors: "Gemessene Fehler setzen",
+    registration: "Roboter einmessen",
     demonstration: "Demonstration hinzufügen",
     recordPoint: "Punkt aufnehmen",
     recordPath: "Bahn aufnehmen",
@@ -199,6 +203,14 @@ export const teachWords = {
     recordPtp: "PTP",
     recordLin: "LIN",
     drag: "Ring",
+    target: "Ziel",
+    targetFollow: "Einem Ziel folgen",
+    targetTip:
+      "Eine Kugel, die Verfahrtasten, Tastatur und Gamepad bewegen; der Arm folgt ihr, so schnell seine Achsen dürfen",
+    targetThere: "Das Werkzeug ist am Ziel.",
+    targetJoints: "Im Achssystem bewegen die Tasten die Achsen; in einem anderen System bewegen sie das Ziel.",
+    "targetBehind(mm, joint: number)": "Das Werkzeug ist {mm} mm zurück; Achse {joint} gibt das Tempo vor.",
+    "targetOut(mm)": "Das Werkzeug bleibt {mm} mm entfernt.",
     dragScale: "Weg des Werkzeugs zum Weg der Hand",
     "dragShare(share: number)": "{share, number, ::.## group-off} : 1",
     "lock(what)": "{what} sperren",
@@ -368,6 +380,49 @@ export const teachWords = {
     options: { rest_m: "Ein Halt liegt innerhalb von", straight_m: "Eine Gerade liegt innerhalb von" },
     fit: "Bögen durch",
     fits: { fitted: "Kleinste Quadrate", averaged: "Mittelwerte" },
+    fastest: "Schnellste Achse",
+    torque: "Größtes Moment",
+    "jointShare(joint: number, percent: number)": "A{joint}, {percent} %",
+    follows: "Der Roboter kann der Hand folgen, wie sie ging.",
+    "unreached(n: number, s)":
+      "{n, plural, one {# Abtastwert ist} other {# Abtastwerte sind}} außer Reichweite, der erste bei {s} s.",
+    "tooFast(joint: number, s)": "Achse {joint} ist bei {s} s zu langsam für die Hand.",
+    "tooHeavy(joint: number, s)": "Achse {joint} ist bei {s} s zu schwach für die Hand.",
+    pallet: "Ganze Palette",
+    places: "Plätze",
+    palletTeach: "Palettenprogramm erzeugen",
+    "palletSays(part, surface, columns: number, rows: number)": "„{part}“ auf „{surface}“: {columns} × {rows} Plätze.",
+    "palletRules(x, y)": "Entlang X {x}, entlang Y {y}.",
+    gridRules: {
+      even: "überall dieselbe Lücke",
+      edges: "von Kante zu Kante",
+      middle: "ohne Lücken in der Mitte",
+      low: "ohne Lücken vom unteren Ende an",
+      high: "ohne Lücken vom oberen Ende an",
+      spaced: "mit eigener Lücke um die Mitte",
+    },
+    grasps: { middle: "Gegriffen wird in der Mitte der Oberseite.", shown: "Gegriffen wird, wo es gezeigt wurde." },
+    "palletOff(count: number, mm, approach)":
+      "{count, plural, one {Die gezeigte Ablage liegt} other {Die # gezeigten Ablagen liegen}} höchstens {mm} mm " +
+      "daneben; der Weg hin und zurück ist {approach} mm lang.",
+    "palletMade(places: number, surface)":
+      "{places, plural, one {# Platz ist} other {# Plätze sind}} auf „{surface}“ geteacht. Sie bewegen sich mit.",
+    palletRefused: {
+      noCycle: "Kein Teil wird gegriffen und abgelegt: Der Greifer muss schließen und dann öffnen.",
+      "noPart(place)":
+        "Wo der Greifer schloss ({place} mm), liegt kein Werkstück der Zelle. Dorthin legen, wie es zugeführt wird.",
+      "severalFeeders(mm)": "Die Teile wurden {mm} mm voneinander gegriffen. Beide aus derselben Zuführung zeigen.",
+      "noSurface(place)":
+        "Unter dem Teil, wo der Greifer öffnete ({place} mm), ist nichts. Palette oder Tisch dorthin stellen.",
+      noGrid:
+        "Das Teil ist größer als die Fläche, oder beide Ablagen liegen auf einem Platz. " +
+        "Zwei verschiedene Plätze zeigen.",
+      "noGridOf(places: number)":
+        "{places, plural, one {# Platz passt} other {# Plätze passen}} nicht in Reihen auf die Fläche. " +
+        "Die Zahl ändern.",
+      "irregular(mm)":
+        "Das nächste Raster liegt {mm} mm neben dem Gezeigten. Die Palette stattdessen über drei Ecken teachen.",
+    },
     teach: "Schritte erzeugen",
     "taught(count: number)":
       "{count, plural, one {# Schritt wurde} other {# Schritte wurden}} aus der Demonstration erzeugt.",
@@ -378,6 +433,9 @@ export const teachWords = {
     add: "Pose speichern",
     addTip: "Ein Frame der Zelle dort, wo die Werkzeugspitze jetzt ist",
     "put(name)": "„{name}“ dorthin legen, wo das Werkzeug ist",
+    "goTo(name)": "Zu „{name}“ fahren",
+    goToTip: "Der Roboter fährt mit seinen Achsen dorthin",
+    "notThere(name)": "„{name}“ ist nicht erreichbar.",
     putTip: "Dorthin legen, wo das Werkzeug jetzt ist, ob erreichbar oder nicht",
     load: "Laden …",
     save: "Sichern …",

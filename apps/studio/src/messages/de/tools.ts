@@ -12,6 +12,7 @@ export const tools: Translation<typeof english> = {
   undoExchange: "Werkzeug tauschen",
   "makeTool(name)": "{name} zum Werkzeug machen",
   makeToolSays: "Sein Koordinatensystem kommt an den Flansch, z von ihm weg; die Spitze liegt an seinem Ende.",
+  gripperUrdfSays: "Ein angetriebenes Gelenk und fünf, die ihm folgen, mit Massen und Trägheiten.",
   remove: "Dieses Werkzeug entfernen",
   "stillUsed(name, points: number)":
     "{name} bleibt: {points, plural, one {# Punkt wurde} other {# Punkte wurden}} damit geteacht. Zuerst tauschen.",

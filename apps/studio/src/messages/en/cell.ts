@@ -51,6 +51,9 @@ export const cellWords = {
     assumptions: "Assumed, not published",
     object: "Object",
     position: "Position",
+    removeFrame: "Remove frame",
+    "frameUsed(n: number)":
+      "{n, plural, one {# point or pallet counts} other {# points and pallets count}} from it; change them first.",
     attachedTo: "Attached to",
     attachedToCell: "The cell",
     size: "Size",
@@ -231,6 +234,9 @@ export const cellWords = {
     "removed(name)": "{name} was deleted. Undo brings it back.",
   },
   parts: {
+    path: "Path in the program",
+    "pathSays(mm, s)": "{mm} mm in {s} s",
+    savePath: "Save the path",
     opening: "Opening",
     title: "Part library",
     "search(n: number)": "Search {n} parts",
@@ -281,7 +287,15 @@ export const cellWords = {
     colour: "Colour",
   },
   build: {
-    tools: { select: "Select", move: "Move", turn: "Turn", scale: "Scale", measure: "Measure" },
+    tools: {
+      select: "Select",
+      move: "Move",
+      turn: "Turn",
+      scale: "Scale",
+      measure: "Measure",
+      mate: "Mate",
+      rig: "Make a robot",
+    },
     bar: "Tools of the cell",
     snap: "Snap",
     snapTip: "Flush with floor, faces and middles of other objects, else on the grid. Shift leaves it.",

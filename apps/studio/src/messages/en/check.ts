@@ -167,6 +167,13 @@ export const checkWords = {
     speeds: "Joint speeds",
     torques: "Torques",
     tcpSpeed: "TCP speed",
+    "passes(name, n: number)": "{name} · {n} passes",
+    accuracy: "Accuracy",
+    worstError: "Largest error",
+    rmsError: "Mean error (RMS)",
+    "accuracyWorking(p: number)": "The drives are simulated at five speeds … {p} %",
+    accuracyNote:
+      "Simulated drives: a spring and a damper on every joint; masses and torque limits, no friction or play.",
     programmed: "programmed",
     mmS: " mm/s",
     limit: "limit",

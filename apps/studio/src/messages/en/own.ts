@@ -1,5 +1,8 @@
 /** Robots that a person brings. */
 export const own = {
+  saveFile: "Save robot file",
+  saveUrdf: "Save URDF",
+  saveUrdfSays: "A ZIP with the URDF, its meshes, limits, masses and inertias.",
   add: "From a file …",
   addHint: "URDF, xacro, robot file, D-H table, or a ZIP with its meshes",
   typed: "Type a D-H table …",

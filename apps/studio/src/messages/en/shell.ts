@@ -152,6 +152,8 @@ export const shellWords = {
     turnTool: "Turn objects",
     scaleTool: "Scale objects",
     measureTool: "Measure",
+    mateTool: "Mate faces or axes of two objects",
+    rigTool: "Make a robot of imported parts",
     snap: "Snap on or off",
     handleAxes: "Handles along the world or the object",
     stop: "Stop everything",

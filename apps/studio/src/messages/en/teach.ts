@@ -1,6 +1,7 @@
 /** Teaching: jogging, steps, traces, demonstrations, saved poses, and what undo is called. */
 export const teachWords = {
   step: {
+    "asBelt(name, speed)": "As fast as {name}: {speed} mm/s",
     "point(n: number)": "Point {n}",
     "wait(s: number)": "Wait {s} s",
     open: "Open gripper",
@@ -23,6 +24,7 @@ export const teachWords = {
     condition: "Condition",
     variable: "Variable",
     value: "Value",
+    "removeUnused(n: number)": "{n, plural, one {Remove # unused variable} other {Remove # unused variables}}",
     newVariable: "New variable …",
     newVariableName: "Name of the new variable",
     kindOfValue: "Kind",
@@ -74,6 +76,7 @@ export const teachWords = {
   },
   undo: {
     errors: "Set measured errors",
+    registration: "Register the robot",
     demonstration: "Add demonstration",
     recordPoint: "Record point",
     recordPath: "Record path",
@@ -193,6 +196,14 @@ export const teachWords = {
     recordPtp: "PTP",
     recordLin: "LIN",
     drag: "Ring",
+    target: "Target",
+    targetFollow: "Follow a target",
+    targetTip:
+      "A sphere that the jog keys, the keyboard and the gamepad move; the arm follows it as fast as its joints may",
+    targetThere: "The tool is at the target.",
+    targetJoints: "In the joint frame the keys move the joints; choose another frame to move the target.",
+    "targetBehind(mm, joint: number)": "The tool is {mm} mm behind; joint {joint} sets the pace.",
+    "targetOut(mm)": "The tool stays {mm} mm away.",
     dragScale: "Way of the tool for the way of the hand",
     "dragShare(share: number)": "{share, number, ::.## group-off} : 1",
     "lock(what)": "Lock {what}",
@@ -359,6 +370,45 @@ export const teachWords = {
     options: { rest_m: "A stop is within", straight_m: "A straight is within" },
     fit: "Curves by",
     fits: { fitted: "Least squares", averaged: "Averages" },
+    fastest: "Fastest joint",
+    torque: "Highest torque",
+    "jointShare(joint: number, percent: number)": "J{joint}, {percent} %",
+    follows: "The robot can follow the hand as it went.",
+    "unreached(n: number, s)": "{n, plural, one {# sample is} other {# samples are}} out of reach, the first at {s} s.",
+    "tooFast(joint: number, s)": "Joint {joint} is too slow for the hand at {s} s.",
+    "tooHeavy(joint: number, s)": "Joint {joint} is too weak for the hand at {s} s.",
+    pallet: "Whole pallet",
+    places: "Places",
+    palletTeach: "Make a pallet program",
+    "palletSays(part, surface, columns: number, rows: number)": "“{part}” on “{surface}”: {columns} × {rows} places.",
+    "palletRules(x, y)": "Along X {x}, along Y {y}.",
+    gridRules: {
+      even: "the same gap everywhere",
+      edges: "from edge to edge",
+      middle: "without gaps in the middle",
+      low: "without gaps from the low end",
+      high: "without gaps from the high end",
+      spaced: "with a gap of its own, about the middle",
+    },
+    grasps: { middle: "It is held in the middle of its top.", shown: "It is held where it was shown." },
+    "palletOff(count: number, mm, approach)":
+      "{count, plural, one {The placement shown is} other {The # placements shown are}} at most {mm} mm off; " +
+      "the way in and out is {approach} mm.",
+    "palletMade(places: number, surface)":
+      "{places, plural, one {# place} other {# places}} on “{surface}” are taught. They move with it.",
+    palletRefused: {
+      noCycle: "No part is picked and placed: the gripper has to close and then open.",
+      "noPart(place)":
+        "No work piece of the cell is where the gripper closed ({place} mm). Put it there, as it lies in the feeder.",
+      "severalFeeders(mm)": "The parts were picked {mm} mm apart. Show both from the same feeder.",
+      "noSurface(place)":
+        "Nothing of the cell is under the part where the gripper opened ({place} mm). Put the pallet or table there.",
+      noGrid: "The part is larger than the surface, or both placements are on one place. Show two different places.",
+      "noGridOf(places: number)":
+        "{places, plural, one {# place does} other {# places do}} not fit on the surface in rows. Change the number.",
+      "irregular(mm)":
+        "The nearest grid is {mm} mm from what was shown. Teach the pallet by its three corners instead.",
+    },
     teach: "Make steps",
     "taught(count: number)": "{count} steps were made of the demonstration.",
   },
@@ -368,6 +418,9 @@ export const teachWords = {
     add: "Keep pose",
     addTip: "A frame of the cell where the tool tip is now",
     "put(name)": "Put “{name}” where the tool is",
+    "goTo(name)": "Go to “{name}”",
+    goToTip: "The robot goes there by its joints",
+    "notThere(name)": "“{name}” cannot be reached.",
     putTip: "Put it where the tool is now, reachable or not",
     load: "Load …",
     save: "Save …",

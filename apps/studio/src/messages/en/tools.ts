@@ -9,6 +9,7 @@ export const tools = {
   undoExchange: "Exchange the tool",
   "makeTool(name)": "Make {name} a tool",
   makeToolSays: "Its frame comes to the flange, z away from it; the tip is set where it ends.",
+  gripperUrdfSays: "One driven joint and five that mimic it, with masses and inertias.",
   remove: "Remove this tool",
   "stillUsed(name, points: number)":
     "{name} stays: {points, plural, one {# point was} other {# points were}} taught with it. Exchange it first.",

@@ -9,12 +9,14 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { cellStore } from "../../stores/cell.ts";
+import { followTargetStore } from "../../stores/follow-target.ts";
 import { isLive } from "../../stores/connection.ts";
 import { controlStore } from "../../stores/control.ts";
 import { flangeFromTcpOf, robotOf, worldFromFrameOf } from "../../stores/document.ts";
 import { jogStore, type JogState } from "../../stores/jog.ts";
 import { sound } from "../../stores/sound.ts";
 import { words } from "../../messages/index.ts";
+import { createTargetFollower } from "./follow-target.ts";
 import { onFrame } from "./jog-frames.ts";
 import { heldNow, MAX_COORDINATES } from "./pressed-inputs.ts";
 import { moveByHand } from "./hand-motion.ts";
@@ -49,6 +51,8 @@ export function createJogger(): Jogger {
   const linear: Vector3 = [0, 0, 0];
   const angular: Vector3 = [0, 0, 0];
   const told = new Set<Coordinate>();
+  const follower = createTargetFollower();
+  let following = false;
   let q = new Float64Array(6);
   // Stopped before a contact it waits for the hand to let go: pushing on would only meet it again.
   let left_s = 0;
@@ -91,6 +95,23 @@ export function createJogger(): Jogger {
       frame: jog.frame === "user" ? userAxes(jog) : jog.frame,
     };
   };
+  /** One frame in which what is held moves the target, and the arm goes after it. */
+  const follow = (on: JogCell, jog: JogState, any: boolean, now_ms: number, dt_s: number): void => {
+    const locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
+    if (!any) {
+      letGo = false;
+      if (jog.blocked && !locked) jogStore.setState({ blocked: null });
+    }
+    const stepping = jog.manner === "steps";
+    const part_s = stepping ? Math.min(dt_s, left_s) : dt_s;
+    const moves = !locked && !letGo && (stepping ? left_s > 0 : any);
+    const sentence = follower.step(on, moves ? command(on, jog, stepping ? pending : held) : null, part_s, dt_s);
+    if (stepping && moves) left_s -= part_s;
+    if (sentence === null) return;
+    letGo = any;
+    left_s = 0;
+    jogStore.setState({ blocked: { sentence, until_ms: now_ms + STOPPED_MS } });
+  };
   const userAxes = (jog: JogState): Quaternion =>
     worldFromFrameOf(cellStore.getState().document, "user", jog.userFrame).quaternion;
 
@@ -119,6 +140,13 @@ export function createJogger(): Jogger {
       const stepping = jog.manner === "steps";
       const on = cellNow();
       const locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
+      const follows = followTargetStore.getState().on && jog.frame !== "joint";
+      if (follows && !following) follower.begin();
+      following = follows;
+      if (follows && on && dt_s > 0 && !controlStore.getState().running) {
+        follow(on, jog, any, now_ms, dt_s);
+        return;
+      }
       if (!any && !(stepping && left_s > 0)) {
         if (moverNow() === "jog") leaveRobot("jog");
         known = "";

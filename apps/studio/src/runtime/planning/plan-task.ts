@@ -11,10 +11,13 @@ import {
   detour,
   repairAll,
   RepairSearch,
+  trackingError,
+  type Robot,
+  type Tracking,
   type PathOptions,
   type RepairOptions,
 } from "@twincell/core";
-import type { FromPlanner, RepairQuestion, ToPlanner } from "../../workers/plan-messages.ts";
+import type { FromPlanner, PlanTask, RepairQuestion, ToPlanner } from "../../workers/plan-messages.ts";
 
 /** Long enough for a crowded cell, short enough to be waited for. */
 const WITHIN_S = 20;
@@ -23,6 +26,37 @@ const LEARN_SAMPLES = 2000;
 /** Room to keep on the way to a posture; less where the ends have less [m]. */
 const ROOMS_M = [0.01, 0] as const;
 const TELL_EVERY_S = 0.06;
+
+/** Parts of the planned speed at which the accuracy is looked at. */
+const OVERRIDES = [0.1, 0.25, 0.5, 0.75, 1] as const;
+/** Drives as of a medium-sized arm [rad/s], integrated in steps of this [s]. */
+const BANDWIDTH_RAD_S = 60;
+const DRIVE_STEP_S = 1e-3;
+
+/** The error of the drives at each part of the speed, one after the other, so that progress can be told. */
+function accuracyStudy(
+  { plan, program, worldFromBase }: Extract<PlanTask, { kind: "accuracy" }>,
+  robot: Robot,
+  tell: (fraction: number) => void,
+): Tracking {
+  // The slowest takes the longest: a share of time is one of 1 / speed.
+  const all = OVERRIDES.reduce((sum, override) => sum + 1 / override, 0);
+  let done = 0;
+  const rows = [];
+  for (const override of OVERRIDES) {
+    const one = trackingError(plan, robot, program, {
+      worldFromBase,
+      control: { kind: "drives", bandwidth_rad_s: BANDWIDTH_RAD_S },
+      overrides: [override],
+      step_s: DRIVE_STEP_S,
+    });
+    if (one.kind === "unknown") return one;
+    rows.push(...one.rows);
+    done += 1 / override / all;
+    tell(done);
+  }
+  return { kind: "known", rows };
+}
 
 /** The body of the planning worker: pure but for the clock it is given. */
 export function planTask(
@@ -51,6 +85,8 @@ export function planTask(
         id,
         answer: detour(task.program, task.step, robot, { ...options, cell: task.cell, margin_m: task.margin_m }),
       };
+    case "accuracy":
+      return { kind: "accuracy", id, tracking: accuracyStudy(task, robot, options.onProgress!) };
     case "explain":
       return {
         kind: "explained",

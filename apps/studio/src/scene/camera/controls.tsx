@@ -4,6 +4,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import { type ComponentRef, type RefObject, useEffect, useMemo, useRef } from "react";
 import { type Group, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { useStore } from "zustand";
+import { markerViewStore } from "../../stores/marker-view.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { Interaction } from "../interaction.ts";
 import { contentBounds, fitDistance } from "./bounds.ts";
@@ -39,6 +40,7 @@ export function Controls({
   const invalidate = useThree(state => state.invalidate);
   const close = useStore(viewStore, state => state.camera === "close");
   const inHeadset = useStore(viewStore, state => state.inHeadset);
+  const onMarker = useStore(markerViewStore, state => state.on);
   const flight = useMemo(
     () => ({
       start_ms: 0,
@@ -110,7 +112,7 @@ export function Controls({
   useFrame((_state, dt_s) => {
     const orbit = controls.current;
     const { turning } = viewStore.getState();
-    if (orbit && (turning[0] !== 0 || turning[1] !== 0) && !close && !inHeadset) {
+    if (orbit && (turning[0] !== 0 || turning[1] !== 0) && !close && !inHeadset && !onMarker) {
       flight.on = false;
       turnedView(camera.position, orbit.target, turning, Math.min(dt_s, LONGEST_S));
       orbit.update();
@@ -119,7 +121,7 @@ export function Controls({
     }
     pending.current?.();
     pending.current = null;
-    if (!flight.on || !orbit) return;
+    if (!flight.on || !orbit || onMarker) return;
     const t = Math.min(1, (performance.now() - flight.start_ms) / FLIGHT_MS);
     const eased = 1 - (1 - t) ** 3;
     camera.position.lerpVectors(flight.fromPlace, flight.place, eased);
@@ -134,7 +136,7 @@ export function Controls({
     <OrbitControls
       ref={controls}
       makeDefault
-      enabled={!close && !inHeadset}
+      enabled={!close && !inHeadset && !onMarker}
       enableDamping={false}
       minDistance={0.15}
       maxDistance={14}

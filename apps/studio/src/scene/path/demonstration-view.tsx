@@ -1,3 +1,4 @@
+import type { Vector3 } from "@twincell/core";
 import { useThree } from "@react-three/fiber";
 import { useEffect, useMemo } from "react";
 import { BufferGeometry, Float32BufferAttribute, Line, LineBasicMaterial } from "three";
@@ -5,10 +6,16 @@ import { useStore } from "zustand";
 import { demonstrationStore } from "../../stores/demonstration.ts";
 import type { SceneTheme } from "../theme.ts";
 
-/** A recorded hand as it was and as it is filtered, one over the other (row M-47). */
+/** Pink is what guides, and nothing else. */
+const GUIDE = "#ff6fb5";
+const PLACE_M = 0.012;
+const NO_PLACES: readonly Vector3[] = [];
+
+/** A recorded hand as it was and as it is filtered (row M-47), and the places that it stands for. */
 export function DemonstrationView({ theme }: { readonly theme: SceneTheme }) {
   const demonstration = useStore(demonstrationStore, state => state.open?.demonstration);
   const filtered = useStore(demonstrationStore, state => state.open?.filtered);
+  const places = useStore(demonstrationStore, state => state.open?.places_m ?? NO_PLACES);
   const invalidate = useThree(state => state.invalidate);
   const original = useMemo(
     () =>
@@ -28,10 +35,17 @@ export function DemonstrationView({ theme }: { readonly theme: SceneTheme }) {
       for (const line of [original, result]) line?.geometry.dispose();
     };
   }, [original, result, invalidate]);
+  useEffect(() => invalidate(), [places, invalidate]);
   return (
     <>
       {original && <primitive object={original} />}
       {result && <primitive object={result} />}
+      {places.map((place, i) => (
+        <mesh key={i} name="shown-place" position={[...place]} renderOrder={7} raycast={() => undefined}>
+          <sphereGeometry args={[PLACE_M, 16, 12]} />
+          <meshBasicMaterial color={GUIDE} transparent opacity={0.8} depthTest={false} toneMapped={false} />
+        </mesh>
+      ))}
     </>
   );
 }

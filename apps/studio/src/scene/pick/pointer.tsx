@@ -8,9 +8,13 @@ import { theLive } from "../../runtime/live.ts";
 import { lookAt } from "../../runtime/planning/look-at.ts";
 import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
 import { buildStore } from "../../stores/build.ts";
+import { pickToMate } from "../../stores/mate.ts";
 import { pickToMeasure } from "../../stores/measure.ts";
+import { pickForRig } from "../../stores/rig.ts";
+import { hoverSurface, picksSurfaces, surfaceStore } from "../../stores/surface.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { playStore } from "../../stores/play.ts";
+import { pointAt } from "../../stores/together.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -23,6 +27,7 @@ import { theRobot } from "../../stores/document.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, hoverEdges, nearestEdge, takeEdges } from "./edges.ts";
 import { measurePoint } from "./measure-point.ts";
+import { surfaceUnder } from "./surface.ts";
 import { pathUnder } from "./path-under.ts";
 import { nearestThing } from "./raycast.ts";
 import { thingWords } from "./thing-words.ts";
@@ -156,10 +161,12 @@ export function Pointer({
       if (event.pointerType === "touch") leave();
     });
     const leave = (): void => {
+      pointAt(null);
       interaction.inside = false;
       interaction.hoveredPart = null;
       if (selectionStore.getState().hovered) hover(null);
       if (traceStore.getState().hovered) traceStore.setState({ hovered: null });
+      hoverSurface(null);
       sayAtPointer(label, "", "plain", 0, 0);
       canvas.style.cursor = "";
       invalidate();
@@ -217,7 +224,9 @@ export function Pointer({
     }
     const found = part !== null ? null : nearestThing(work.caster, root);
     const thing: Thing | null = found?.holder.userData.thing ?? null;
+    pointAt(found ? toWorld(found.hit.point, [0, 0, 0]) : null);
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
+    if (picksSurfaces()) hoverSurface(found ? surfaceUnder(document, found, found.hit.distance * MEASURE_SHARE) : null);
     const { hovered } = selectionStore.getState();
     if (JSON.stringify(hovered) !== JSON.stringify(thing)) hover(thing);
     const edge = traceStore.getState().hovered;
@@ -255,6 +264,12 @@ export function Pointer({
       if (viewStore.getState().mode === "cell" && buildStore.getState().tool === "measure") {
         const found = world.current ? nearestThing(work.caster, world.current) : null;
         if (found) pickToMeasure(measurePoint(document, found, found.hit.distance * MEASURE_SHARE));
+        return;
+      }
+      if (picksSurfaces()) {
+        const { hovered: surface } = surfaceStore.getState();
+        if (surface && buildStore.getState().tool === "rig") pickForRig(surface);
+        else if (surface) pickToMate(surface);
         return;
       }
       if (more && viewStore.getState().mode === "cell") {

@@ -23,7 +23,7 @@ interface Props {
    */
   readonly prefix?: string;
   /** Drawn see-through in that colour, without shadow: where the robot will be. */
-  readonly ghost?: string;
+  readonly ghost?: string | undefined;
 }
 
 /** A ghost is nothing to be clicked. */
@@ -64,6 +64,8 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
   useFrame(() => {
     const live = now();
     if (live.revision === seen.current) return;
+    // Another robot, by undo say, is there before React has drawn it: until then the angles are not this arm's.
+    if (live.q_rad.length !== robot.arm.joints.length) return;
     seen.current = live.revision;
     linkPoses(robot.arm, live.q_rad, scratch.baseFromLink, scratch.arm);
     for (let i = 0; i < scratch.baseFromLink.length; i++) {

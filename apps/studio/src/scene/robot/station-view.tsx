@@ -14,6 +14,8 @@ import { ArmView } from "./arm-view.tsx";
 /** Of the ghost that runs ahead: its way is free, or something is met on it. */
 const FREE = "#3fb8b3";
 const BLOCKED = "#ff6157";
+/** Of the twin while its clone is programmed in a headset: it stands in the same place and must not hide it. */
+const TWIN = "#8b969c";
 
 /** The robots of the other controllers, each where it stands and as its last sample says. */
 export function StationViews() {
@@ -23,6 +25,7 @@ export function StationViews() {
   const base = useStore(cellStore, state => state.document?.robot.worldFromBase);
   const past = useStore(historyStore, state => state.past);
   const lookingBack = useStore(viewStore, state => state.mode === "history");
+  const inHeadset = useStore(viewStore, state => state.inHeadset);
   // All of them are to be seen, also the one that has just come.
   useEffect(() => {
     runCommand("view.fit");
@@ -37,7 +40,14 @@ export function StationViews() {
     return (
       <Fragment key={id}>
         {(id !== cell || view === "clone") && (
-          <ArmView robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} />
+          <ArmView
+            key={id === cell && inHeadset ? "ghost" : "solid"}
+            robot={live.robot}
+            worldFromBase={stand}
+            live={() => shownInstead(id) ?? live}
+            prefix={`${id}/`}
+            ghost={id === cell && inHeadset ? TWIN : undefined}
+          />
         )}
         {ghost !== "none" && (
           <ArmView

@@ -40,23 +40,26 @@ export function RunContext({
   theme,
   document,
   sky,
+  room,
 }: {
   readonly theme: SceneTheme;
   readonly document: CellDocument;
   readonly sky: boolean;
+  /** Floor and backdrop are drawn; not where a camera shows the real ones. */
+  readonly room: boolean;
 }) {
   const things = useMemo(() => standing(document), [document]);
   const strength = theme.dark ? 0.62 : 0.34;
   const base = document.robot.worldFromBase.position;
   return (
     <>
-      {sky && <Sky theme={theme} />}
-      <Floor theme={theme} />
+      {sky && room && <Sky theme={theme} />}
+      {room && <Floor theme={theme} />}
       <Light theme={theme} anyChange={document} />
       {base[2] < 0.004 && (
         <ContactShadow halfX_m={0.165} halfY_m={0.165} round_m={0.165} at={base} strength={strength} reach_m={0.16} />
       )}
-      {things
+      {(room ? things : [])
         .filter(
           thing => thing.box.min.z < 0.004 || things.some(other => other !== thing && rests(thing.box, other.box)),
         )

@@ -9,7 +9,7 @@ import { chosenEdges, hoverEdges, nearestEdge, takeEdges } from "../pick/edges.t
 import { nearestThing } from "../pick/raycast.ts";
 import { toWorld } from "../world-space.ts";
 import type { KeyAim } from "./grabber.ts";
-import { pulse } from "./haptics.ts";
+import { feel } from "./haptics.ts";
 
 /** So far off the ray an edge is taken for the one that is meant [rad]: 21 mm at 1.5 m. */
 const TOLERANCE_RAD = 0.014;
@@ -71,14 +71,14 @@ function Pointing({
       const depth_m = nearestThing(work.caster, world.current)?.hit.distance ?? Infinity;
       const picked = nearestEdge(document, work.ray, depth_m, TOLERANCE_RAD);
       const edges = picked ? chosenEdges(picked.object, picked.pick, traceStore.getState().wholeLoop) : [];
-      const pressed = source.gamepad?.buttons[0]?.pressed === true;
+      const pressed = source.targetRayMode === "transient-pointer" || source.gamepad?.buttons[0]?.pressed === true;
       if (picked && !shown) {
         hoverEdges(picked.object.id, edges);
         shown = true;
       }
       if (picked && pressed && work.pressed.get(source) !== true) {
         takeEdges(edges);
-        pulse(source, 0.35, 25);
+        feel(source, "grasp");
       }
       work.pressed.set(source, pressed);
     }

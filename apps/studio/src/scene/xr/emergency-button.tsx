@@ -12,7 +12,7 @@ import { sound } from "../../stores/sound.ts";
 import { stationStore } from "../../stores/stations.ts";
 import { stopEverything } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
-import { pulse } from "./haptics.ts";
+import { feel } from "./haptics.ts";
 
 const SAID = words.headset;
 const BOX_M = 0.1;
@@ -103,7 +103,7 @@ export function EmergencyButton() {
       if (over && tip.z < PRESSED_M && tip.z > -BOX_M && work.before.get(source) === true) {
         work.before.set(source, false);
         if (!headsetStore.getState().emergency) {
-          pulse(source, 1, 200);
+          feel(source, "emergency");
           pressEmergency();
         }
       } else if (tip.z > BEFORE_M || !over) work.before.set(source, tip.z > BEFORE_M && over);

@@ -4,32 +4,44 @@ import { type Group, Matrix4 } from "three";
 import { tick } from "../../runtime/jog/jog-frames.ts";
 import type { Interaction } from "../interaction.ts";
 import { Grabber, type KeyAim } from "./grabber.ts";
+import { GripperButton } from "./gripper-button.ts";
 
 /**
  * The hands of a headset, once a frame: the only part of the window's heartbeat that goes on while a headset is worn.
+ * What takes the tool and what closes the gripper are read apart, each with its own choice of button (row X-33).
  */
 export function Grab({
   interaction,
   keys,
   origin,
   world,
+  letGo,
 }: {
   readonly interaction: Interaction;
   readonly keys: KeyAim;
   readonly origin: RefObject<Group | null>;
   readonly world: RefObject<Group | null>;
+  /** Filled here: lets go of everything and says whether the tool was held. */
+  readonly letGo: RefObject<(() => boolean) | null>;
 }) {
   const work = useMemo(
-    () => ({ grabber: null as Grabber | null, sceneFromRoom: new Matrix4(), worldFromScene: new Matrix4() }),
+    () => ({
+      grabber: null as Grabber | null,
+      gripper: new GripperButton(),
+      sceneFromRoom: new Matrix4(),
+      worldFromScene: new Matrix4(),
+    }),
     [],
   );
   useEffect(() => {
     const grabber = (work.grabber = new Grabber(interaction, keys));
+    letGo.current = () => grabber.letGo();
     return () => {
+      letGo.current = null;
       grabber.close();
       work.grabber = null;
     };
-  }, [work, interaction, keys]);
+  }, [work, interaction, keys, letGo]);
   // Rays of the headset's pointers need not look through every mesh of the cell: nothing in it listens to them.
   useEffect(() => {
     const group = world.current;
@@ -48,6 +60,7 @@ export function Grab({
     work.sceneFromRoom.copy(origin.current.matrixWorld);
     work.worldFromScene.copy(world.current.matrixWorld).invert();
     work.grabber?.read(session, frame, space, work);
+    work.gripper.read(session.inputSources);
   }, -30);
   return null;
 }

@@ -10,7 +10,7 @@ import { words } from "../../messages/index.ts";
 import { carried } from "../handle/drag-maths.ts";
 import type { Interaction } from "../interaction.ts";
 import { WORDS } from "../words.ts";
-import { pulse } from "./haptics.ts";
+import { feel } from "./haptics.ts";
 import { GRAB_NEAR_M, type HandState, handState, RAY_NEAR_M, rayMisses, readHand, type Room } from "./hands.ts";
 
 const BUZZ_EVERY_MS = 90;
@@ -44,6 +44,10 @@ interface Taken {
   readonly end: () => void;
 }
 
+/** What carries a tool that a ray took: the ray, or the hand whose pinch the ray of the eyes belongs to. */
+const carrier = (state: HandState): Pose<"world", "hand"> =>
+  state.transient ? state.worldFromHand : state.worldFromRay;
+
 /** From here on the tool is as if it were fixed in the hand as they are now: taking it moves nothing. */
 function takeAnew(taken: Taken, worldFromHand: Pose<"world", "hand">): void {
   compose(inverse(worldFromHand), theLive().worldFromTcp, taken.handFromTcp);
@@ -76,14 +80,21 @@ export class Grabber {
     this.#interaction = interaction;
     this.#keys = keys;
     this.#stop = onTouching(names => {
-      if (names.size > 0 && this.#taken) pulse(this.#taken.source, 1, 90);
+      if (names.size > 0 && this.#taken) feel(this.#taken.source, "contact");
     });
   }
 
   close(): void {
     this.#stop();
+    this.letGo();
+  }
+
+  /** The session ended, or the studio wants it: nothing is held any more. Says whether something was. */
+  letGo(): boolean {
+    const held = this.#taken !== null;
     this.#drop();
     this.#hands.clear();
+    return held;
   }
 
   /** Reads every hand of the frame. Allocates nothing of its own while hands only move. */
@@ -97,13 +108,17 @@ export class Grabber {
           (hand = { state: handState(), last: [0, 0, 0], seen: false, squeezed: false, pointed: false, present: true }),
         );
       hand.present = true;
-      readHand(source, frame, space, room, hand.state);
+      readHand(source, frame, space, room, headsetStore.getState().use, hand.state);
       this.#follow(source, hand);
     }
     // A controller that was switched off, or a hand that became a controller, comes back as another one.
     for (const [source, hand] of this.#hands) {
       if (hand.present) continue;
-      if (this.#taken?.source === source) this.#drop();
+      if (this.#taken?.source === source) {
+        this.#drop();
+        // A pinch that ends goes away by itself; a controller that does is switched off, or its battery is empty.
+        if (!hand.state.transient) refuseDrag(words.headset.handGone);
+      }
       this.#hands.delete(source);
     }
     if (this.#taken && !this.#hands.get(this.#taken.source)?.state.tracked) this.#interaction.wanting = false;
@@ -129,7 +144,7 @@ export class Grabber {
   #take(source: XRInputSource, ray: boolean, worldFromHand: Pose<"world", "hand">): void {
     this.#drop();
     if (headsetStore.getState().emergency) {
-      pulse(source, 0.7, 45);
+      feel(source, "limit");
       refuseDrag(words.headset.emergencyPressed);
       return;
     }
@@ -145,7 +160,7 @@ export class Grabber {
     takeAnew(taken, worldFromHand);
     this.#interaction.draggedPart = "free";
     if (!headsetStore.getState().hintDone) headsetStore.setState({ hintDone: true });
-    pulse(source, 0.35, 25);
+    feel(source, "grasp");
   }
 
   readonly #drop = (): void => {
@@ -171,7 +186,7 @@ export class Grabber {
         !traceStore.getState().active &&
         rayMisses(state.worldFromRay, tip) < RAY_NEAR_M
       )
-        this.#take(source, true, state.worldFromRay);
+        this.#take(source, true, carrier(state));
     }
     const jump_m = hand.seen && state.tracked ? distance(position, hand.last) : 0;
     if (state.tracked) {
@@ -190,13 +205,13 @@ export class Grabber {
       this.#drop();
       return;
     }
-    const carries = this.#taken.ray ? state.worldFromRay : state.worldFromHand;
+    const carries = this.#taken.ray ? carrier(state) : state.worldFromHand;
     if (this.#taken.lost) {
       this.#taken.lost = false;
       takeAnew(this.#taken, carries);
     } else if (jump_m > LONGEST_JUMP_M) {
       this.#drop();
-      pulse(source, 0.7, 45);
+      feel(source, "limit");
       refuseDrag(WORDS.handJumped(jump_m));
       return;
     }
@@ -207,7 +222,7 @@ export class Grabber {
     const now_ms = performance.now();
     if (outcome.kind === "blocked" && now_ms - this.#buzzed_ms > BUZZ_EVERY_MS) {
       this.#buzzed_ms = now_ms;
-      pulse(source, 0.7, 45);
+      feel(source, "limit");
     }
   }
 }

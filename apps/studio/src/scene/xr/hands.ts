@@ -1,6 +1,8 @@
 import type { Pose } from "@twincell/core";
 import { Matrix4, Vector3 } from "three";
+import type { ControllerUse } from "../../stores/headset.ts";
 import { matrixPose } from "../pose-matrix.ts";
+import { takesWith, triggerHeld } from "./controller-input.ts";
 
 /** Fingers nearer than this hold; farther than that let go: between the two nothing changes. */
 const PINCH_CLOSED_M = 0.022;
@@ -26,6 +28,10 @@ export interface HandState {
   measured: boolean;
   squeezing: boolean;
   pointing: boolean;
+  /** It is there only while fingers are pinched, with the ray of the eyes: what it takes goes with the hand. */
+  transient: boolean;
+  /** Frames since it came. */
+  age: number;
 }
 export const handState = (): HandState => ({
   worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
@@ -35,6 +41,8 @@ export const handState = (): HandState => ({
   measured: false,
   squeezing: false,
   pointing: false,
+  transient: false,
+  age: 0,
 });
 
 /** How the room that the headset counts in lies in the scene, and the scene in the z-up world. */
@@ -54,12 +62,18 @@ export function readHand(
   frame: XRFrame,
   space: XRReferenceSpace,
   room: Room,
+  use: ControllerUse,
   out: HandState,
 ): void {
+  out.age++;
   const ray = frame.getPose(source.targetRaySpace, space);
   if (ray) intoWorld(ray.transform, room, out.worldFromRay);
   if (source.hand) {
     readFingers(source.hand, frame, space, room, out);
+    return;
+  }
+  if (source.targetRayMode === "transient-pointer") {
+    readPinch(source, frame, space, room, out);
     return;
   }
   const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
@@ -70,9 +84,25 @@ export function readHand(
     intoWorld(grip.transform, room, out.worldFromHand);
     for (let k = 0; k < 3; k++) out.holds[k] = out.worldFromHand.position[k]!;
   }
-  const buttons = source.gamepad?.buttons;
-  out.squeezing = buttons?.[1]?.pressed === true;
-  out.pointing = buttons?.[0]?.pressed === true;
+  const { gamepad } = source;
+  out.squeezing = gamepad ? takesWith(gamepad, use) : false;
+  out.pointing = gamepad ? triggerHeld(gamepad) : false;
+}
+
+/** Panels learn of a ray that is new only in the next frame: until then it takes nothing behind them. */
+const KNOWN_AFTER = 3;
+
+/** Eyes choose, a pinch takes, the hand carries (Vision Pro): the source is there as long as the pinch is. */
+function readPinch(source: XRInputSource, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
+  const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
+  out.transient = true;
+  out.tracked = grip !== undefined && grip !== null;
+  if (grip) {
+    intoWorld(grip.transform, room, out.worldFromHand);
+    for (let k = 0; k < 3; k++) out.holds[k] = out.worldFromHand.position[k]!;
+  }
+  out.squeezing = false;
+  out.pointing = out.age >= KNOWN_AFTER;
 }
 
 /** Takes hold between thumb and index and carries with the wrist. */

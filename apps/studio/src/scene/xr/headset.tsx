@@ -23,9 +23,12 @@ import { EmergencyButton } from "./emergency-button.tsx";
 import { Grab } from "./grab.tsx";
 import { GrabHint } from "./grab-hint.tsx";
 import type { KeyAim } from "./grabber.ts";
+import { HeardFrom } from "./heard-from.tsx";
 import { HeldHeight } from "./held-height.tsx";
+import { KeypadPanel } from "./keypad-panel.tsx";
 import { Locomotion, resize } from "./locomotion.tsx";
 import { PastPanel } from "./past-panel.tsx";
+import { whatEnded, whyNotEntered } from "./session-sentences.ts";
 import { standingPlace } from "./standing-place.ts";
 import { StepStand } from "./step-stand.tsx";
 import { Surroundings } from "./surroundings.tsx";
@@ -41,6 +44,7 @@ const store = createXRStore({
   baseAssetPath: new URL("profiles/", window.location.href).href,
   controller: Controller,
   hand: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED, touchPointer: UNHURRIED },
+  transientPointer: { clickThresholdMs: Infinity },
 });
 
 /** The cell at full size with a person in front of it. Mounted when a headset is first asked for. */
@@ -61,18 +65,27 @@ export function Headset({
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
     store.enterVR().catch((problem: unknown) => {
-      notify("warn", problem instanceof Error ? problem.message : String(problem));
+      const { sentence, hint } = whyNotEntered(problem);
+      notify("warn", sentence, hint);
     });
   }, [wish]);
+  const letGo = useRef<(() => boolean) | null>(null);
   useEffect(() => {
+    let byKey = false;
     leaveHeadsetBy(() => {
+      byKey = true;
       void store.getState().session?.end();
     });
     const stop = store.subscribe((state, before) => {
       if (state.session === before.session) return;
       viewStore.setState({ inHeadset: state.session !== undefined });
+      if (state.session) return;
       // Nobody holds anything any more when the session ends, whatever ended it.
-      if (!state.session) setEnabled(false);
+      setEnabled(false);
+      const held = letGo.current?.() === true;
+      const told = whatEnded(byKey ? "left" : held ? "ended-held" : "ended");
+      byKey = false;
+      if (told !== null) notify("warn", told);
     });
     return () => {
       stop();
@@ -90,7 +103,7 @@ export function Headset({
         <Around interaction={interaction} document={document} origin={origin} world={world} keys={keys} />
       </Suspense>
       <Standing origin={origin} document={document} />
-      <Grab interaction={interaction} keys={keys} origin={origin} world={world} />
+      <Grab interaction={interaction} keys={keys} origin={origin} world={world} letGo={letGo} />
     </XR>
   );
 }
@@ -133,6 +146,7 @@ function Around({
       <EdgePointing world={world} origin={origin} document={document} keys={keys} />
       <WhyCard />
       <HeldHeight interaction={interaction} />
+      <HeardFrom />
       <GrabHint />
     </>
   );
@@ -183,13 +197,14 @@ function bendOnce(document: CellDocument, towards_rad: number): void {
 
 /** Panels that stand about the person: pictures of cameras, and the time line of what was recorded. */
 function Room({ keys }: { readonly keys: KeyAim }) {
-  const { cameras, history } = useStore(roomStore);
+  const { cameras, history, keypad } = useStore(roomStore);
   const panels = useStore(videoStore, state => state.panels);
   return (
     <>
       {cameras && panels.map((panel, i) => <CameraPanel key={panel.id} panel={panel} place={i} keys={keys} />)}
       {cameras && panels.length === 0 && <NoCamera keys={keys} />}
       {history ? <PastPanel keys={keys} /> : <StepStand keys={keys} />}
+      {keypad && <KeypadPanel keys={keys} />}
     </>
   );
 }

@@ -1,4 +1,5 @@
 import { Container, Text } from "@react-three/uikit";
+import { useEffect, useRef } from "react";
 
 /** Capitals of 32 px are 23 mm high on panels that stand in the room, where a pixel is 1 mm. */
 export const WORDS_PX = 32;
@@ -27,6 +28,53 @@ export interface KeyProps {
   readonly size?: number;
   /** Its share of a row is its own width. */
   readonly narrow?: number;
+}
+
+/** Acts as long as it is held: a ray or finger that leaves it has let go. */
+export function HoldKey({
+  id,
+  words,
+  onHold,
+  onLetGo,
+}: {
+  readonly id: string;
+  readonly words: string;
+  readonly onHold: () => void;
+  readonly onLetGo: () => void;
+}) {
+  const letGo = useRef(onLetGo);
+  letGo.current = onLetGo;
+  // A key that goes away while it is held is let go.
+  useEffect(
+    () => () => {
+      letGo.current();
+    },
+    [],
+  );
+  return (
+    <Container
+      id={id}
+      flexGrow={1}
+      flexBasis={0}
+      height={68}
+      borderRadius={14}
+      alignItems="center"
+      justifyContent="center"
+      backgroundColor="#12413f"
+      borderWidth={4}
+      borderColor="#3fb8b3"
+      hover={{ borderColor: "#f2f6f8" }}
+      active={{ backgroundColor: "#3fb8b3" }}
+      onPointerDown={onHold}
+      onPointerUp={onLetGo}
+      onPointerLeave={onLetGo}
+      onPointerCancel={onLetGo}
+    >
+      <Text fontSize={WORDS_PX} fontWeight="medium" color="#f2f6f8">
+        {words}
+      </Text>
+    </Container>
+  );
 }
 
 export function Key({

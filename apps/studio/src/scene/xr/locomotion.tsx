@@ -5,6 +5,7 @@ import { connectionStore } from "../../stores/connection.ts";
 import { headsetStore, LARGEST_SCALE, SMALLEST_SCALE } from "../../stores/headset.ts";
 import { roomStore } from "../../stores/room.ts";
 import type { Interaction } from "../interaction.ts";
+import { readStick, takesWith, turnsView } from "./controller-input.ts";
 
 /** A stick pushed this far asks for something; let go below the second it can ask again. */
 const PUSHED = 0.65;
@@ -44,7 +45,13 @@ export function Locomotion({
   const geometry = useMemo(() => new RingGeometry(0.16, 0.22, 48).rotateX(-Math.PI / 2), []);
   const material = useMemo(() => new MeshBasicMaterial({ color: "#2fa5a0", toneMapped: false }), []);
   const work = useMemo(
-    () => ({ sticks: new WeakMap<XRInputSource, Stick>(), apart_m: 0, scale: 1, held: new Vector3() }),
+    () => ({
+      sticks: new WeakMap<XRInputSource, Stick>(),
+      stick: [0, 0] as [number, number],
+      apart_m: 0,
+      scale: 1,
+      held: new Vector3(),
+    }),
     [],
   );
   useFrame(({ gl, camera }, dt_s, frame: XRFrame | undefined) => {
@@ -54,11 +61,9 @@ export function Locomotion({
     if (!person || !marker.current || !frame || !space || !session) return;
     let aims = false;
     for (const source of session.inputSources) {
-      const axes = source.gamepad?.axes;
-      if (!axes || axes.length < 2) continue;
-      // The thumbstick is the second pair of axes of the standard mapping; a touch pad is the first.
-      const x = (axes.length > 3 ? axes[2] : axes[0]) ?? 0;
-      const y = (axes.length > 3 ? axes[3] : axes[1]) ?? 0;
+      if (!source.gamepad || !turnsView(source.handedness, headsetStore.getState().use)) continue;
+      readStick(source.gamepad, work.stick);
+      const [x, y] = work.stick;
       let stick = work.sticks.get(source);
       if (!stick) work.sticks.set(source, (stick = { asked: false, aiming: false }));
       // With the time line open the right stick goes through time.
@@ -91,7 +96,7 @@ export function Locomotion({
   function stretched(session: XRSession, frame: XRFrame, space: XRReferenceSpace, person: Group): void {
     let count = 0;
     for (const source of session.inputSources) {
-      if (source.gamepad?.buttons[1]?.pressed !== true || !source.gripSpace) continue;
+      if (!source.gamepad || !source.gripSpace || !takesWith(source.gamepad, headsetStore.getState().use)) continue;
       const grip = frame.getPose(source.gripSpace, space);
       if (!grip) continue;
       const { position } = grip.transform;

@@ -8,11 +8,20 @@ import { runCommand } from "../../stores/commands.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { programOf } from "../../stores/document.ts";
 import { editStore } from "../../stores/edit-point.ts";
-import { headsetStore, leaveHeadset, nextOf, type HeadsetTab, scaleCell } from "../../stores/headset.ts";
+import {
+  headsetStore,
+  leaveHeadset,
+  nextOf,
+  resetPanels,
+  scaleCell,
+  type ControllerUse,
+  type HeadsetTab,
+} from "../../stores/headset.ts";
 import { notify } from "../../stores/notices.ts";
+import { physicsStore } from "../../stores/physics.ts";
 import { playStore } from "../../stores/play.ts";
 import { repairStore } from "../../stores/repairs.ts";
-import { toggleRoom } from "../../stores/room.ts";
+import { roomStore, toggleRoom } from "../../stores/room.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
 import { seenFindings, leaveRunQuestion } from "../../runtime/run/ask-before-run.ts";
 import { sound } from "../../stores/sound.ts";
@@ -370,11 +379,71 @@ function History() {
   );
 }
 
+/** Which parts of a controller do what, each chosen by itself (row X-33); and panels back where they stood. */
+function ControllerKeys() {
+  const use = useStore(headsetStore, state => state.use);
+  const change = (part: Partial<ControllerUse>): void => {
+    headsetStore.setState({ use: { ...use, ...part } });
+  };
+  return (
+    <>
+      <Row>
+        <PlateKey
+          id="use-take"
+          words={SAID.take[use.take]}
+          onPress={() => {
+            change({ take: nextOf(["grip", "trigger"] as const, use.take) });
+          }}
+        />
+        <PlateKey
+          id="use-view"
+          words={SAID.viewBy[use.view]}
+          onPress={() => {
+            change({ view: nextOf(["both", "left", "right"] as const, use.view) });
+          }}
+        />
+      </Row>
+      <Row>
+        <PlateKey
+          id="use-gripper"
+          words={SAID.gripperBy[use.gripper]}
+          onPress={() => {
+            change({ gripper: nextOf(["a", "b", "none"] as const, use.gripper) });
+          }}
+        />
+        <PlateKey id="panels-back" words={SAID.panelsBack} onPress={resetPanels} />
+      </Row>
+    </>
+  );
+}
+
+/** Numbers by keypad, and playing with weight and friction. */
+function Numbers() {
+  const keypad = useStore(roomStore, state => state.keypad);
+  return (
+    <Row>
+      <PlateKey
+        id="keypad"
+        words={SAID.keypad}
+        strong={keypad}
+        onPress={() => {
+          toggleRoom("keypad");
+        }}
+      />
+      {command("aid-next", SAID.aid, "jog.aid-next")}
+    </Row>
+  );
+}
+function Physics() {
+  const on = useStore(physicsStore, state => state.on);
+  return <Row>{command("physics", SAID.physics, "play.physics", { strong: on })}</Row>;
+}
+
 /** What each tab holds: at most four actions a page. */
 export const PAGES: Readonly<Record<HeadsetTab, readonly (() => ReactNode)[]>> = {
-  teach: [Teach, TeachAgain, HandKeys],
+  teach: [Teach, TeachAgain, HandKeys, Numbers],
   check: [Check, Repairs],
-  run: [Run, Stepping],
-  cell: [Cell, Person],
+  run: [Run, Stepping, Physics],
+  cell: [Cell, Person, ControllerKeys],
   history: [History],
 };

@@ -31,7 +31,7 @@ const DOTS: Readonly<Record<StepVerdict, string>> = {
   unknown: "#8b969c",
 };
 /** Beside the robot, turned to the person, its upper edge at the height of the eyes [m]. */
-const STANDS_AT = [1.08, 1.5, -1.12] as const;
+export const STANDS_AT = [0.95, 1.5, -0.97] as const;
 const TURNED_RAD = -0.76;
 const POST_M = 1.5;
 
@@ -46,6 +46,7 @@ export function StepStand({ keys }: { readonly keys: KeyAim }) {
         turn_rad={TURNED_RAD}
         width={WIDTH_PX}
         keys={keys}
+        upright
         title={<Title />}
         above={<Post />}
       >
@@ -160,7 +161,7 @@ function StepRow({
       <Container width={18} height={18} borderRadius={5} flexShrink={0} backgroundColor={color} />
       <Container flexGrow={1} flexBasis={0} overflow="hidden">
         <Text fontSize={WORDS_PX} color="#f2f6f8" fontWeight={chosen ? "bold" : "normal"}>
-          {says.length > 17 ? `${says.slice(0, 16)}…` : says}
+          {says.length > 17 ? `${says.slice(0, 15)}..` : says}
         </Text>
       </Container>
       <Text fontSize={WORDS_PX} color={QUIET}>

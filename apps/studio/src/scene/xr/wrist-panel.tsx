@@ -16,11 +16,14 @@ import { WORDS } from "../words.ts";
 import { aimAt, type KeyAim } from "./grabber.ts";
 import { Key } from "./keys.tsx";
 import { PAGES } from "./plate-keys.tsx";
+import { beginProgramming } from "./programming.ts";
 
 /** 276 × 200 mm. */
-const METRES_PER_PIXEL = 0.0005;
+export const PLATE_METRES_PER_PIXEL = 0.0005;
+/** From the eyes to the hand that wears it [m]. */
+export const PLATE_READ_FROM_M = 0.55;
 const WIDTH_PX = 552;
-const SMALL_PX = 24;
+export const SMALL_PX = 24;
 const TABS: readonly HeadsetTab[] = ["teach", "check", "run", "cell", "history"];
 const SAID = words.headset;
 
@@ -51,7 +54,7 @@ export function WristPanel({
       gap={12}
       padding={14}
       width={WIDTH_PX}
-      pixelSize={METRES_PER_PIXEL}
+      pixelSize={PLATE_METRES_PER_PIXEL}
       backgroundColor="#161a1d"
       borderRadius={22}
       borderWidth={2}
@@ -95,6 +98,7 @@ function Tabs() {
             openTab(each);
             // Looking back is begun by its own panel; the others are the modes of the page.
             if (each !== "history") showMode(each);
+            if (each === "teach") beginProgramming();
           }}
         />
       ))}

@@ -7,6 +7,7 @@ export const DENSO: CatalogueMaker = {
     {
       id: "denso_cobotta",
       name: "DENSO COBOTTA",
+      payload: { kg: 0.5, from: "data sheet" },
       frames: ["base_link", "J6"],
       repository: "DENSORobot/denso_robot_ros2",
       path: "denso_robot_descriptions/urdf/denso_robot.urdf.xacro model:=cobotta",

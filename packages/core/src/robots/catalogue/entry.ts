@@ -20,6 +20,8 @@ export interface CatalogueEntry {
   readonly id: string;
   readonly name: string;
   readonly home_deg?: readonly number[];
+  /** What it may carry at the flange, tool included; left out where neither source states it. */
+  readonly payload?: Payload;
   /** Names of root link and tip frame in the description. */
   readonly frames: readonly [base: string, tip: string];
   /** True where no program that is not this project's was held against the arm's forward kinematics. */
@@ -39,6 +41,16 @@ export interface CatalogueEntry {
   readonly table: string;
 }
 
+/** Payload [kg] and where it stands: in the name that the maker gave the model, or in the maker's data sheet. */
+export interface Payload {
+  readonly kg: number;
+  readonly from: "designation" | "data sheet";
+}
+
+const PAYLOAD_SOURCES: Readonly<Record<Payload["from"], string>> = {
+  designation: "Part of the name that the maker gives the model.",
+  "data sheet": "The maker's data sheet of the model.",
+};
 /** How far the shapes drawn from dimensions alone may be off, as a share of the reach: an estimate, not measured. */
 const SHAPE_ERROR_SHARE = 0.08;
 const LEAST_SHAPE_ERROR_M = 0.03;
@@ -56,7 +68,7 @@ const AXES: Readonly<Record<string, Vector3>> = {
  * said.
  */
 export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
-  const { id, name, home_deg, frames, unverified, section } = entry;
+  const { id, name, home_deg, frames, unverified, section, payload } = entry;
   const { arm, baseFromVendorWorld } = armOfTable(name, entry.table);
   const robot = robotFromArm(arm, {
     id,
@@ -66,7 +78,9 @@ export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
     baseFromVendorWorld,
     ...(section === undefined ? {} : { vendorSection: sectionOfData(section) }),
     ...(unverified === undefined ? {} : { unverified }),
+    ...(payload === undefined ? {} : { payload_kg: payload.kg }),
     sources: {
+      ...(payload === undefined ? {} : { payload: PAYLOAD_SOURCES[payload.from] }),
       "lengths, limits, speeds": `${entry.repository} (${REPOSITORIES[entry.repository]!}), ${entry.path}.`,
       reach: "Computed from these lengths.",
     },

@@ -7,6 +7,7 @@ export const FRANKA_ROBOTICS: CatalogueMaker = {
     {
       id: "franka_fr3",
       name: "Franka FR3",
+      payload: { kg: 3, from: "data sheet" },
       home_deg: [0, -45, 0, -135, 0, 90, 45],
       frames: ["fr3_link0", "fr3_link8"],
       repository: "frankarobotics/franka_description",
@@ -24,6 +25,7 @@ flange 0 0 -0.107 180 0 0`,
     {
       id: "franka_fer",
       name: "Franka Panda",
+      payload: { kg: 3, from: "data sheet" },
       home_deg: [0, -45, 0, -135, 0, 90, 45],
       frames: ["fer_link0", "fer_link8"],
       repository: "frankarobotics/franka_description",

@@ -24,6 +24,7 @@ flange 0 0 0.061525 0 0 0`,
     {
       id: "kinova_gen3_lite",
       name: "Kinova Gen3 lite",
+      payload: { kg: 0.5, from: "data sheet" },
       frames: ["base_link", "tool_frame"],
       repository: "Kinovarobotics/ros2_kortex",
       path: "kortex_description/robots/gen3_lite.urdf",

@@ -7,6 +7,7 @@ export const RETHINK_ROBOTICS: CatalogueMaker = {
     {
       id: "rethink_sawyer",
       name: "Rethink Sawyer",
+      payload: { kg: 4, from: "data sheet" },
       home_deg: [0, -67.5, 0, 125, 0, 32.5, 0],
       frames: ["base", "right_hand"],
       repository: "RethinkRobotics/sawyer_robot",

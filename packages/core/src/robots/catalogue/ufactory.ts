@@ -7,6 +7,7 @@ export const UFACTORY: CatalogueMaker = {
     {
       id: "ufactory_xarm6",
       name: "UFACTORY xArm 6",
+      payload: { kg: 5, from: "data sheet" },
       home_deg: [0, -30, -40, 0, 70, 0],
       frames: ["link_base", "link_eef"],
       repository: "xArm-Developer/xarm_ros2",
@@ -23,6 +24,7 @@ flange 0 0 0 180 0 0`,
     {
       id: "ufactory_xarm7",
       name: "UFACTORY xArm 7",
+      payload: { kg: 3.5, from: "data sheet" },
       home_deg: [0, -30, 0, 60, 0, 90, 0],
       frames: ["link_base", "link_eef"],
       repository: "xArm-Developer/xarm_ros2",
@@ -40,6 +42,7 @@ flange 0 0 0 180 0 0`,
     {
       id: "ufactory_lite6",
       name: "UFACTORY Lite 6",
+      payload: { kg: 0.6, from: "data sheet" },
       frames: ["link_base", "link_eef"],
       repository: "xArm-Developer/xarm_ros2",
       path: "xarm_description/urdf/xarm_device.urdf.xacro dof:=6 robot_type:=lite",

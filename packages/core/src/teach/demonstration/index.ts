@@ -9,3 +9,5 @@ export * from "./attempts.ts";
 export * from "./on-pallet.ts";
 export * from "./hand-profile.ts";
 export * from "./raw-hand.ts";
+export * from "./infer-pallet.ts";
+export { GRID_RULES, type GridRule } from "./grid.ts";

@@ -1,15 +1,16 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, textFault } from "../../parser/index.ts";
 import {
   readExpression,
+  type Argument,
   type Block,
   type Expression,
   type Parameter,
   type Routine,
+  type Statement,
 } from "../../parser/structured/index.ts";
+import { programsOf } from "./sections.ts";
 import { StatementReader, RESERVED, RULES } from "./statements.ts";
-
-/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
 
 /**
  * A text that was read: what a person called it, the program that is started, and those that it calls, under the name
@@ -19,6 +20,8 @@ export interface Source {
   readonly title: string;
   readonly routines: ReadonlyMap<string, Routine>;
   readonly main: Block;
+  /** Statements that are kept and not executed. */
+  readonly kept: readonly TextFault[];
 }
 
 export type SourceAnswer =
@@ -26,9 +29,11 @@ export type SourceAnswer =
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads AS. Names are lower case. Goes on after a fault, so that all of them are told at once. */
-export const readSource = (text: string): SourceAnswer => new Reader(text).source();
+export const readSource = (text: string, asText = false): SourceAnswer => new Reader(programsOf(text), asText).source();
 
 export class Reader extends StatementReader {
+  private readonly deferred = new Map<string, readonly TextFault[]>();
+
   source(): SourceAnswer {
     const { cursor, routines } = this;
     this.guard(() => {
@@ -48,19 +53,37 @@ export class Reader extends StatementReader {
     const first = [...routines.values()].find(({ name }) => !this.called.has(name)) ?? [...routines.values()][0];
     if (first === undefined && this.faults.length === 0)
       this.faults.push(new TextError(cursor.here, ".PROGRAM", "The text holds no program.").fault);
+    this.faults.push(...(this.deferred.get(first?.name ?? "") ?? []));
     if (this.faults.length > 0 || first === undefined) return { kind: "not-understood", faults: this.faults };
+    for (const [name, faults] of this.deferred) this.defer(name, faults[0]!);
     routines.delete(`call ${first.name}`);
     return {
       kind: "source",
-      source: { title: titleOf(first.body) ?? first.name, routines, main: [...this.lists, ...first.body] },
+      source: {
+        title: titleOf(first.body) ?? first.name,
+        routines,
+        main: [...this.lists, ...first.body],
+        kept: this.kept,
+      },
     };
+  }
+
+  /** What is not understood in a program that is not started matters where it is called. */
+  private defer(name: string, { line, column, expected, sentence }: TextFault): void {
+    const at = { line, column };
+    const routine = this.routines.get(`call ${name}`);
+    if (routine === undefined) return;
+    const text = (value: string): Argument => ({ value: { kind: "text", value, ...at }, ...at });
+    const fault: Statement = { kind: "do", name: "fault", args: [text(expected), text(sentence)], ...at };
+    this.routines.set(`call ${name}`, { ...routine, body: [fault] });
+    this.kept.push(textFault(at, expected, `${sentence} The program ${name} is refused where it is called.`));
   }
 
   protected override closes(word: string): boolean {
     return word === ".end";
   }
 
-  /** `.PROGRAM … .END`, `.TRANS … .END` and their like. What else a file of a controller holds means nothing here. */
+  /** `.PROGRAM … .END`, `.TRANS … .END` and their like. */
   private part(): void {
     const { cursor } = this;
     const at = cursor.here;
@@ -76,25 +99,14 @@ export class Reader extends StatementReader {
         this.list(word, at);
         return;
       case ".reals":
+      case ".strings":
+      case ".integer":
         this.reals(at);
         return;
       case ".end":
         throw new TextError(at, ".PROGRAM", '".END" stands where nothing is open.');
       default:
-        while (!(cursor.kind === "word" && cursor.next === ".end")) {
-          if (cursor.done)
-            throw new TextError(cursor.here, ".END", `The ${word.toUpperCase()} of line ${at.line} is not closed.`);
-          this.restOfLine();
-          while (cursor.isAt("line-end")) {
-            try {
-              cursor.advance();
-            } catch (cause) {
-              if (!(cause instanceof TextError)) throw cause;
-              break;
-            }
-          }
-        }
-        cursor.advance();
+        throw new TextError(at, ".PROGRAM", `"${word.toUpperCase()}" stands where a program is expected.`);
     }
   }
 
@@ -107,9 +119,7 @@ export class Reader extends StatementReader {
       throw new TextError(place, "a name that is no word of the language", `"${name}" is a word of AS.`);
     if (cursor.accept("(")) {
       while (!cursor.accept(")")) {
-        cursor.accept("&");
-        parameters.push({ name: cursor.name("the name of a parameter"), type: "", optional: true });
-        if (cursor.accept("[")) cursor.expect("]");
+        parameters.push({ name: cursor.name("the name of a parameter"), type: "", optional: true, isBack: true });
         if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected('"," or ")"');
       }
     }
@@ -118,8 +128,11 @@ export class Reader extends StatementReader {
     if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the line");
     if (this.routines.has(`call ${name}`))
       this.faults.push(new TextError(place, "a name used once", `The program ${name} is there twice.`).fault);
+    const before = this.faults.length;
     const body = this.body("program", at, [".end"]);
     cursor.expect(".end");
+    this.endOfProgram();
+    if (this.asText && this.faults.length > before) this.deferred.set(name, this.faults.splice(before));
     this.routines.set(`call ${name}`, { name, parameters, body, ...place });
   }
 

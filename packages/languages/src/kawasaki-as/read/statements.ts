@@ -1,5 +1,5 @@
-import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import type { TextFault, TextPlace } from "@twincell/core";
+import { TextError, textFault } from "../../parser/index.ts";
 import {
   RecoveringReader,
   readExpression,
@@ -12,7 +12,7 @@ import {
   type Statement,
   type TokenCursor,
 } from "../../parser/structured/index.ts";
-import { INSTRUCTIONS, MOTIONS, SHORT, SPEED_UNITS, UNSUPPORTED } from "./words.ts";
+import { AWAY, INSTRUCTIONS, KEPT, MOTIONS, RECEIVES, SHORT, SPEED_UNITS, UNSUPPORTED } from "./words.ts";
 
 const LEXICON: Lexicon = {
   comment: ";",
@@ -46,7 +46,8 @@ const LEXICON: Lexicon = {
     "&",
     "!",
   ],
-  word: /[#$.]*[A-Za-z_][A-Za-z0-9_.]*/y,
+  // `.&p[,]` hands all places of a row to a program.
+  word: /[#$.]*&?[A-Za-z_][A-Za-z0-9_.]*(?:\[[ ,]*\])?/y,
 };
 
 export const RESERVED: ReadonlySet<string> = new Set([
@@ -69,6 +70,8 @@ export const RESERVED: ReadonlySet<string> = new Set([
   "case",
   "of",
   "value",
+  "svalue",
+  "scase",
   "any",
   "by",
   "goto",
@@ -119,16 +122,27 @@ export abstract class StatementReader extends RecoveringReader {
 
   protected readonly lists: Statement[] = [];
   private readonly words = new Map<string, string>();
+  /** Whether the text is only executed: what does not move the arm may be left out then, and is told. */
+  protected readonly asText: boolean;
+  /** Lists of lines name places that GOTO goes to only where one does. */
+  private readonly jumps: boolean;
+  /** Labels of the program that is read, and the jumps to them. */
+  private readonly labels = new Set<string>();
+  private gotos: (TextPlace & { readonly label: string })[] = [];
+  /** Statements that are kept and not executed. */
+  protected readonly kept: TextFault[] = [];
 
-  constructor(text: string) {
+  constructor(text: string, asText: boolean) {
     super(text, LEXICON);
+    this.asText = asText;
+    this.jumps = /\bGOTO\b/i.test(text);
   }
 
   /** Capitals count for nothing. The words of a long text are few. */
   protected override folded(word: string): string {
     const known = this.words.get(word);
     if (known !== undefined) return known;
-    const small = word.toLowerCase();
+    const small = word.toLowerCase().replace("&", "").replace(/\[.*/, "[]");
     this.words.set(word, small);
     return small;
   }
@@ -150,6 +164,7 @@ export abstract class StatementReader extends RecoveringReader {
           throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The ${opened} of line ${at.line} is not closed.`);
         if (this.hasEnough) break;
         const statement = this.guard(() => {
+          this.label(statements);
           const read = this.statement();
           if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
           return read;
@@ -160,10 +175,40 @@ export abstract class StatementReader extends RecoveringReader {
     });
   }
 
+  /** At the end of a program: jumps to labels that it does not have are told. */
+  protected endOfProgram(): void {
+    for (const { label, ...at } of this.gotos)
+      if (!this.labels.has(label))
+        this.faults.push(textFault(at, "a label of the program", `There is no label ${label} in this program.`));
+    this.gotos = [];
+    this.labels.clear();
+  }
+
+  /** `100` or `name:` before a step, which only GOTO speaks of. */
+  private label(into: Statement[]): void {
+    const { cursor } = this;
+    const at = cursor.here;
+    const isName = cursor.isAt("word") && !RESERVED.has(cursor.next) && cursor.second === ":";
+    if (!isName && !cursor.isAt("number")) return;
+    if (this.jumps) into.push({ kind: "label", name: cursor.next, ...at });
+    this.labels.add(cursor.next);
+    cursor.advance();
+    if (isName) cursor.advance();
+  }
+
+  private jump(at: TextPlace): Statement {
+    const { cursor } = this;
+    cursor.expect("goto");
+    if (!cursor.isAt("number") && !cursor.isAt("word")) throw cursor.unexpected("a label");
+    const label = cursor.take();
+    this.gotos.push({ label, ...at });
+    const go: Statement = { kind: "goto", label, ...at };
+    if (!cursor.accept("if")) return go;
+    return { kind: "if", branches: [{ when: readExpression(cursor, RULES), body: [go] }], ...at };
+  }
+
   private statement(): Statement | undefined {
     const { cursor } = this;
-    // The number of a step, which only GOTO speaks of.
-    if (cursor.isAt("number")) cursor.advance();
     if (cursor.isAt("line-end")) return undefined;
     const at = cursor.here;
     const word = cursor.next;
@@ -188,7 +233,10 @@ export abstract class StatementReader extends RecoveringReader {
         return this.counting(at);
       case "case":
         cursor.advance();
-        return this.choice(at);
+        return this.choice(at, "value");
+      case "scase":
+        cursor.advance();
+        return this.choice(at, "svalue");
       case "call": {
         cursor.advance();
         const place = cursor.here;
@@ -197,16 +245,12 @@ export abstract class StatementReader extends RecoveringReader {
         const args = cursor.accept("(") ? readArguments(cursor, 0) : [];
         return { kind: "do", name: `call ${name}`, args, ...place };
       }
-      case "return":
+      case "wait":
         cursor.advance();
-        return { kind: "return", ...at };
-      case "halt":
-      case "stop":
-        cursor.advance();
-        return { kind: "halt", ...at };
+        return { kind: "wait-until", when: readExpression(cursor, RULES), ...at };
       case "point":
         cursor.advance();
-        return this.assignment(at);
+        return cursor.accept("/") ? this.partly(at) : this.assignment(at);
       case "swait": {
         cursor.advance();
         let when: Expression | undefined;
@@ -218,28 +262,86 @@ export abstract class StatementReader extends RecoveringReader {
         return { kind: "wait-until", when, ...at };
       }
       default:
-        break;
+        return this.leaving(at, word) ?? this.byName(at, word);
     }
-    return this.byName(at, word);
+  }
+
+  /** What leaves a block, a program or all of them. */
+  private leaving(at: TextPlace, word: string): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
+      case "goto":
+        return this.jump(at);
+      case "return":
+        cursor.advance();
+        return { kind: "return", ...at };
+      case "halt":
+      case "abort":
+      case "stop":
+        cursor.advance();
+        return { kind: "halt", ...at };
+      default:
+        return undefined;
+    }
   }
 
   /** Statements that begin with a name, and instructions. */
   private byName(at: TextPlace, word: string): Statement | undefined {
     const { cursor } = this;
-    if (Object.hasOwn(UNSUPPORTED, word))
+    const { second } = cursor;
+    if (this.asText && second !== "=" && (KEPT.has(word) || RECEIVES.test(word) || AWAY.has(word)))
+      return this.keptStatement(at, word);
+    if (Object.hasOwn(UNSUPPORTED, word) && !(this.asText && word === "xmove"))
       throw new TextError(at, "a statement of the motion program", UNSUPPORTED[word]!);
     if (RESERVED.has(word)) throw cursor.unexpected("a statement");
-    const { second } = cursor;
     if (second === "=" || (second === "[" && !INSTRUCTIONS.has(word))) return this.assignment(at);
-    if (second === ":") {
-      cursor.advance();
-      cursor.advance();
-      return undefined;
-    }
     if (second === "on" || second === "off") return this.switched(at);
     if (!INSTRUCTIONS.has(word))
       throw new TextError(at, "a statement of AS", `"${cursor.raw}" is no statement of AS that is understood here.`);
     return this.instruction(at);
+  }
+
+  /** A statement that is left out with all of its line; what it receives has no value that is known. */
+  private keptStatement(at: TextPlace, word: string): Statement {
+    const { cursor } = this;
+    if (AWAY.has(word)) {
+      this.restOfLine();
+      const what =
+        word === "scall"
+          ? "The program that SCALL chooses by its name"
+          : `Where ${word.toUpperCase()} goes, which the controller holds,`;
+      return { kind: "do", name: "away", args: [{ value: { kind: "text", value: what, ...at }, ...at }], ...at };
+    }
+    this.kept.push(
+      textFault(at, "a statement that moves the robot", `${word.toUpperCase()} is kept and shown, and not executed.`),
+    );
+    cursor.advance();
+    const args: Argument[] = [];
+    while (!cursor.isAt("line-end") && !cursor.done) {
+      const place = cursor.here;
+      if (cursor.isAt("word")) {
+        if (cursor.next === "call" || word === "pcexecute") this.called.add(cursor.second);
+        if (RECEIVES.test(word)) args.push({ value: { kind: "variable", name: cursor.next, ...place }, ...place });
+      }
+      cursor.advance();
+    }
+    return { kind: "do", name: "received", args, ...at };
+  }
+
+  /** `POINT/OAT a = b`: only these numbers of a are given. */
+  private partly(at: TextPlace): Statement {
+    const { cursor } = this;
+    const place = cursor.here;
+    const parts = cursor.take();
+    const assign = this.assignment(at);
+    if (assign.kind !== "assign") return assign;
+    // A further axis is no part of the place.
+    if (/^[0-9]+$/.test(parts)) return { ...assign, value: assign.to };
+    if (!/^[xyzoat]+$/.test(parts))
+      throw new TextError(place, "X, Y, Z, O, A or T", `"${parts}" is no part of a place.`);
+    const of = (value: Expression): Argument => ({ value, ...place });
+    const args = [of({ kind: "text", value: parts, ...place }), of(assign.to), of(assign.value)];
+    return { ...assign, value: { kind: "call", name: "point/", args, ...place } };
   }
 
   /** `CP OFF` */
@@ -287,6 +389,7 @@ export abstract class StatementReader extends RecoveringReader {
         ...place,
       });
       if (name === "decompose" && cursor.accept("=")) continue;
+      if (name === "xmove" && cursor.accept("till")) continue;
       if (cursor.accept(",")) {
         if (cursor.isAt("line-end")) throw cursor.unexpected("a value");
         continue;
@@ -319,7 +422,13 @@ export abstract class StatementReader extends RecoveringReader {
     if (cursor.kind !== "word" || RESERVED.has(cursor.next)) throw cursor.unexpected("the name of a variable");
     const to = readExpression(cursor, RULES, 0, 100);
     cursor.expect("=");
-    return { kind: "assign", to, value: readExpression(cursor, RULES), global: false, ...at };
+    const value = readExpression(cursor, RULES);
+    const place = cursor.here;
+    if (this.asText && cursor.accept(",")) {
+      readExpression(cursor, RULES);
+      this.kept.push(textFault(place, "a place alone", "The posture that stands behind the place is left open."));
+    }
+    return { kind: "assign", to, value, global: false, ...at };
   }
 
   private branches(at: TextPlace): Statement {
@@ -327,8 +436,11 @@ export abstract class StatementReader extends RecoveringReader {
     const branches: { when: Expression; body: Block }[] = [];
     for (;;) {
       const when = readExpression(cursor, RULES);
-      if (cursor.next === "goto") throw new TextError(cursor.here, "THEN", UNSUPPORTED["goto"]!);
-      cursor.expect("then");
+      if (cursor.next === "goto") {
+        branches.push({ when, body: [this.jump(at)] });
+        return { kind: "if", branches, ...at };
+      }
+      if (!cursor.isAt("line-end")) cursor.expect("then");
       branches.push({ when, body: this.body("IF", at, ["end", "elseif", "else"]) });
       if (!cursor.accept("elseif")) break;
     }
@@ -363,11 +475,11 @@ export abstract class StatementReader extends RecoveringReader {
   }
 
   /** CASE … OF is a chain of comparisons. */
-  private choice(at: TextPlace): Statement {
+  private choice(at: TextPlace, word: "value" | "svalue"): Statement {
     const { cursor } = this;
     const of = readExpression(cursor, RULES);
     const branches: { when: Expression; body: Block }[] = [];
-    const ends = ["end", "value", "any"];
+    const ends = ["end", word, "any"];
     cursor.expect("of");
     this.body("CASE", at, ends);
     let otherwise: Block | undefined;
@@ -377,7 +489,7 @@ export abstract class StatementReader extends RecoveringReader {
         otherwise = this.body("CASE", at, ends);
         continue;
       }
-      cursor.expect("value");
+      cursor.expect(word);
       let when: Expression | undefined;
       do {
         const right = readExpression(cursor, RULES);
@@ -432,6 +544,11 @@ function readArguments(cursor: TokenCursor, depth: number): readonly Argument[] 
   do {
     const at = cursor.here;
     cursor.accept("&");
+    // `$ENCODE(/F5.2, x)`: how a number is written.
+    if (cursor.accept("/")) {
+      while (cursor.next !== "," && cursor.next !== ")" && !cursor.isAt("line-end")) cursor.advance();
+      continue;
+    }
     args.push({
       value: isLeftOut(cursor) ? { kind: "number", value: 0, ...at } : readExpression(cursor, RULES, depth + 1),
       ...at,

@@ -12,6 +12,8 @@ export const MOTIONS: ReadonlySet<string> = new Set([
   "draw",
   "tdraw",
   "drive",
+  "xmove",
+  "taught",
 ]);
 /** Statements with values behind them that are executed here. */
 export const INSTRUCTIONS: ReadonlySet<string> = new Set([
@@ -24,6 +26,8 @@ export const INSTRUCTIONS: ReadonlySet<string> = new Set([
   "tool",
   "base",
   "twait",
+  "delay",
+  "stable",
   "signal",
   "pulse",
   "openi",
@@ -47,7 +51,6 @@ export const INSTRUCTIONS: ReadonlySet<string> = new Set([
 ]);
 /** Statements that are understood and cannot be written as steps, with what the user is told. */
 export const UNSUPPORTED: Readonly<Record<string, string>> = {
-  goto: "GOTO jumps, which is not executed here: loops and decisions are.",
   xmove: "XMOVE ends at a signal by an option of the controller, which is not executed here.",
   home: "HOME goes to a posture that only the controller knows.",
   home2: "HOME2 goes to a posture that only the controller knows.",
@@ -70,3 +73,47 @@ export const SPEED_UNITS: Readonly<Record<string, number>> = {
 };
 /** Words that the controller takes in a shorter form. */
 export const SHORT: Readonly<Record<string, string>> = { sig: "signal", ty: "type" };
+
+/**
+ * Statements that are kept where a text is executed as it is: they speak with people, clocks, the network, the welding
+ * source, other tasks or another group of axes, and do not move this arm by themselves.
+ */
+export const KEPT: ReadonlySet<string> = new Set([
+  "abs.speed",
+  "bits",
+  "disp",
+  "errstart",
+  "group",
+  "hold",
+  "ifpwoverwrite",
+  "ifpwprint",
+  "ignore",
+  "lwc",
+  "lwe",
+  "lws",
+  "mc",
+  "on",
+  "one",
+  "oni",
+  "out",
+  "pause",
+  "pcabort",
+  "pcend",
+  "pcexecute",
+  "prefetch.sigins",
+  "prompt",
+  "qtool",
+  "rep_once",
+  "runmask",
+  "sout",
+  "stp_once",
+  "timer",
+  "unit",
+  "w1set",
+  "w2set",
+  "wait.time",
+]);
+/** Statements of the network: what they receive is known to nobody here. */
+export const RECEIVES = /^(?:tcp|udp)_/;
+/** Motions to places that only the controller knows. */
+export const AWAY: ReadonlySet<string> = new Set(["home", "home2", "align", "scall"]);

@@ -29,6 +29,8 @@ export class ControllerArm {
   private near: readonly number[];
   private flange: Matrix;
   readonly axes: ShownAxes;
+  /** Where the arm is hangs on what only the controller knows. */
+  isLost = false;
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
@@ -50,11 +52,13 @@ export class ControllerArm {
   }
 
   atJoints(deg: readonly number[]): void {
+    this.isLost = false;
     this.near = this.axes.radians(deg);
     this.flange = fromPose(flangePose(this.robot.arm, this.near));
   }
 
   atPlace(place: Matrix): void {
+    this.isLost = false;
     const tip = this.base === NULL ? place : times(this.base, place);
     this.flange = this.tool === NULL ? tip : times(tip, inverted(this.tool));
   }
@@ -103,12 +107,13 @@ export class ControllerArm {
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
-    const { tool, base, near, flange } = this;
+    const { tool, base, near, flange, isLost } = this;
     return () => {
       this.tool = tool;
       this.base = base;
       this.near = near;
       this.flange = flange;
+      this.isLost = isLost;
     };
   }
 }

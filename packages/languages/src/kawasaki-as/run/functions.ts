@@ -27,6 +27,19 @@ export const FUNCTIONS: Readonly<Record<string, Entry>> = {
       return { kind: "place", at: trans([x, y, z, o, a, t]) };
     },
   ],
+  // The numbers of a place that POINT/X and its like replace.
+  "point/": [
+    3,
+    3,
+    ([parts, old, given], at) => {
+      const from = sixOf(asPlace(given!, at).at);
+      const six = sixOf(asPlace(old!, at).at).map((value, i) =>
+        String(parts).includes("xyzoat"[i]!) ? from[i]! : value,
+      );
+      const [x = 0, y = 0, z = 0, o = 0, a = 0, t = 0] = six;
+      return { kind: "place", at: trans([x, y, z, o, a, t]) };
+    },
+  ],
   "#ppoint": [
     1,
     JOINTS,
@@ -96,7 +109,8 @@ export const FUNCTIONS: Readonly<Record<string, Entry>> = {
 
 /** Six numbers of a place or of joint angles. */
 export function numbersOf(value: Value, at: TextPlace): readonly number[] {
-  if (typeof value === "object") return value.kind === "place" ? sixOf(value.at) : value.deg;
+  if (typeof value === "object" && value.kind === "place") return sixOf(value.at);
+  if (typeof value === "object" && value.kind === "joints") return value.deg;
   throw new TextError(
     at,
     "a location",

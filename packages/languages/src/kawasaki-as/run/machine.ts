@@ -1,12 +1,21 @@
 import type { Executed, MoveStep, Pose, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError, missingProgram, nameIn, rememberMap, times, type Matrix } from "../../parser/index.ts";
+import {
+  NotGiven,
+  TextError,
+  missingProgram,
+  nameIn,
+  rememberMap,
+  times,
+  type Matrix,
+  type Notices,
+} from "../../parser/index.ts";
 import { type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
 import { type Posture } from "./arm.ts";
 import { NULL, shifted, toPose, trans } from "./frame.ts";
 import { numbersOf } from "./functions.ts";
 import { holds } from "./lines.ts";
-import { asNumber, asPlace, kindOf, type PlaceValue, type Value } from "./values.ts";
+import { asPlace, isUnknown, kindOf, type PlaceValue, type Value } from "./values.ts";
 import { Evaluation, type Setting } from "./evaluation.ts";
 
 const FIRST_PULSE_S = 0.2;
@@ -15,6 +24,7 @@ const FIRST_PULSE_S = 0.2;
 export class Machine extends Evaluation {
   protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
     const when = this.condition(statement.when);
+    if (this.notices !== undefined && when === undefined) return yield* this.waitAsText(statement, this.notices);
     if (when === undefined)
       throw new TextError(
         statement.when,
@@ -65,15 +75,56 @@ export class Machine extends Evaluation {
     };
   }
 
+  /** A wait for what is no single line: over at once where it is so, and else told. */
+  private *waitAsText(statement: WaitUntil, notices: Notices): Generator<Executed, void> {
+    if (!this.isTrue(statement.when))
+      notices.add(
+        statement,
+        "a condition of one line",
+        `Line ${statement.line} waits for what nothing here makes true: the program goes on as if it were.`,
+      );
+    yield { line: statement.line };
+  }
+
+  /** What only the controller knows is left out and told; the arm is then somewhere. */
+  private lenient(statement: Do, act: () => Step[]): Step[] {
+    if (this.notices === undefined) return act();
+    try {
+      return act();
+    } catch (cause) {
+      if (!(cause instanceof NotGiven)) throw cause;
+      const { message } = cause;
+      if (MOTIONS.has(statement.name) || statement.name === "away") {
+        this.notices.notGiven(statement, `${message}: the motion is not executed.`);
+        this.arm.isLost = true;
+        this.via = undefined;
+      } else this.notices.notGiven(statement, `${message}: line ${statement.line} is not executed.`);
+      return [];
+    }
+  }
+
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
-    const steps = this.steps(statement);
+    const steps = this.lenient(statement, () => this.steps(statement));
     for (const step of steps) yield this.done(statement, step);
     if (steps.length === 0) yield { line: statement.line };
     return undefined;
   }
 
+  /** What is not executed: a place of the controller, a fault of a program that is called, values from outside. */
+  private leftOut({ name, args, ...at }: Do): boolean {
+    if (name === "received") {
+      for (const { value } of args) if (value !== undefined) this.forget(value);
+      return true;
+    }
+    const said = (i: number): string => String(args[i]?.value === undefined ? "" : this.evaluate(args[i].value));
+    if (name === "away") throw new NotGiven(at, "a place", `${said(0)} is in none of the files`);
+    if (name === "fault") throw new TextError(at, said(0), said(1));
+    return false;
+  }
+
   private steps(statement: Do): Step[] {
     const { name, args } = statement;
+    if (this.leftOut(statement)) return [];
     if (MOTIONS.has(name)) {
       const step = this.motion(statement);
       return step === undefined ? [] : [step];
@@ -85,7 +136,7 @@ export class Machine extends Evaluation {
     const number = (i: number, what: string): number => {
       const found = value(i);
       if (found === undefined) throw new TextError(statement, what, `${name.toUpperCase()} is said without ${what}.`);
-      return asNumber(found, args[i]!);
+      return this.number(found, args[i]!);
     };
     const isAlways = args.some(({ name: mark }) => mark === "always");
     const set = <T>(setting: Setting<T>, to: T): void => {
@@ -94,6 +145,10 @@ export class Machine extends Evaluation {
     };
     switch (name) {
       case "speed":
+        if (this.notices !== undefined && isUnknown(value(0))) {
+          this.notices.notGiven(statement, "The speed is in none of the files: it stays as it was.");
+          return [];
+        }
         set(
           this.speed,
           this.speedOf(number(0, "a speed"), args.find(({ name: mark }) => mark === "unit")?.value, statement),
@@ -137,7 +192,7 @@ export class Machine extends Evaluation {
     const number = (i: number, what: string): number => {
       const found = value(i);
       if (found === undefined) throw new TextError(statement, what, `${name.toUpperCase()} is said without ${what}.`);
-      return asNumber(found, args[i]!);
+      return this.number(found, args[i]!);
     };
     switch (name) {
       case "lefty":
@@ -157,6 +212,8 @@ export class Machine extends Evaluation {
         this.keep(statement);
         return [];
       case "twait":
+      case "delay":
+      case "stable":
         return [{ id: id(), type: "wait", s: atLeast0(number(0, "a time"), statement) }];
       case "openi":
       case "open":
@@ -180,7 +237,7 @@ export class Machine extends Evaluation {
     const number = (i: number, what: string): number => {
       const found = value(i);
       if (found === undefined) throw new TextError(statement, what, `${name.toUpperCase()} is said without ${what}.`);
-      return asNumber(found, args[i]!);
+      return this.number(found, args[i]!);
     };
     switch (name) {
       case "signal":
@@ -237,8 +294,16 @@ export class Machine extends Evaluation {
     return factor > 0 ? { mps: (value * factor) / 1000 } : { time_s: value };
   }
 
+  /** What comes from outside has no value that is known. */
+  private forget(to: Expression): void {
+    if (to.kind !== "variable") return;
+    const value: Value = { kind: "unknown", name: to.name };
+    this.store(to, value);
+    this.store({ ...to, name: `${to.name}[]` }, value);
+  }
+
   private write(line: Expression, id: string): Extract<Step, { type: "set" }> {
-    const { signal, is } = this.lineOf(line);
+    const { signal, is } = this.lineOf(line, "digital-out");
     if (this.declared.signals[signal]!.kind !== "digital-out")
       throw new TextError(line, "an output", `${signal} is an input, which no program sets.`);
     this.outputs.set(signal, is);
@@ -251,7 +316,7 @@ export class Machine extends Evaluation {
     const of = args[1]?.value;
     if (to === undefined || (name === "decompose" && of === undefined))
       throw new TextError({ line, column }, "a variable", `${name.toUpperCase()} is said without a variable.`);
-    if (name === "here" || of === undefined) return this.store(to, { kind: "place", at: this.arm.here() });
+    if (name === "here" || of === undefined) return this.store(to, this.placeHere());
     if (to.kind !== "index" || to.indices.length !== 1)
       throw new TextError(to, "the first of several variables, as x[0]", "DECOMPOSE fills variables that are counted.");
     const first = this.numberOf(to.indices[0]!);
@@ -259,9 +324,22 @@ export class Machine extends Evaluation {
       this.store({ ...to, indices: [{ kind: "number", value: first + i, line, column }] }, value);
   }
 
+  private placeHere(): Value {
+    return this.arm.isLost ? { kind: "unknown", name: "Where the robot is" } : { kind: "place", at: this.arm.here() };
+  }
+
   private setTool(of: Expression | undefined, at: TextPlace): void {
     if (of === undefined) throw new TextError(at, "a transformation", "TOOL is said without a transformation.");
-    this.arm.tool = asPlace(this.evaluate(of), of).at;
+    const given = this.evaluate(of);
+    if (this.notices !== undefined && (isUnknown(given) || typeof given === "number")) {
+      const name = isUnknown(given) ? given.name : `TOOL ${given}`;
+      this.notices.notGiven(at, `${name} is in none of the files: it is taken to be the flange.`);
+      this.arm.tool = NULL;
+      this.tool = "flange";
+      this.hasTool = true;
+      return;
+    }
+    this.arm.tool = asPlace(given, of).at;
     this.hasTool = true;
     const isNull = (of.kind === "variable" && of.name === "null") || this.arm.tool === NULL;
     this.tool = isNull
@@ -271,7 +349,10 @@ export class Machine extends Evaluation {
 
   private setBase(of: Expression | undefined, at: TextPlace): void {
     if (of === undefined) throw new TextError(at, "a transformation", "BASE is said without a transformation.");
-    const base = asPlace(this.evaluate(of), of).at;
+    const given = this.evaluate(of);
+    if (this.notices !== undefined && isUnknown(given))
+      this.notices.notGiven(at, `${given.name} is in none of the files: it is taken to be the base of the robot.`);
+    const base = this.notices !== undefined && isUnknown(given) ? NULL : asPlace(given, of).at;
     const name = of.kind === "variable" ? of.name : "base";
     this.arm.base = NULL;
     this.baseName = base === NULL ? undefined : nameIn(this.declared.frames, this.arm.inWorld(base), name, "_");
@@ -280,7 +361,11 @@ export class Machine extends Evaluation {
 
   private motion(statement: Do): MoveStep | undefined {
     const { name, args } = statement;
-    const path = name.startsWith("c") ? "circ" : name.startsWith("j") || name === "drive" ? "ptp" : "lin";
+    const path = name.startsWith("c")
+      ? "circ"
+      : name.startsWith("j") || name === "drive" || name === "taught"
+        ? "ptp"
+        : "lin";
     const { at: goal, place } = this.goal(statement);
     const { posture: configuration } = this;
     this.posture = {};
@@ -313,8 +398,16 @@ export class Machine extends Evaluation {
       ...(via === undefined || path !== "circ" ? {} : { via }),
       speed,
       ...(acceleration < 1 ? { acceleration: { ratio: acceleration } } : {}),
-      blend_m: passes ? accuracy / 1000 : 0,
+      blend_m: passes && name !== "xmove" ? accuracy / 1000 : 0,
+      ...(name === "xmove" ? { until: this.till(statement) } : {}),
     };
+  }
+
+  /** The line at which XMOVE ends before its place. */
+  private till({ args, ...at }: Do): NonNullable<MoveStep["until"]> {
+    const line = args.filter(({ name }) => name === undefined)[1]?.value;
+    if (line === undefined) throw new TextError(at, "TILL and a line", "XMOVE is said without the line that ends it.");
+    return { when: this.lineOf(line), missing: "continue" };
   }
 
   /** Where a motion goes. */
@@ -338,13 +431,13 @@ export class Machine extends Evaluation {
         return at(times(this.placeOf(first.value), trans([0, 0, -number(1), 0, 0, 0])));
       case "jdepart":
       case "ldepart":
-        return at(times(this.arm.here(), trans([0, 0, -number(0), 0, 0, 0])));
+        return at(times(this.hereFor(statement), trans([0, 0, -number(0), 0, 0, 0])));
       case "draw": {
         if (args.length > 3) throw new TextError(first, "three lengths", "DRAW with angles is not executed here.");
-        return at(shifted(this.arm.here(), number(0), number(1), number(2)));
+        return at(shifted(this.hereFor(statement), number(0), number(1), number(2)));
       }
       case "tdraw":
-        return at(times(this.arm.here(), trans([number(0), number(1), number(2), 0, 0, 0])));
+        return at(times(this.hereFor(statement), trans([number(0), number(1), number(2), 0, 0, 0])));
       case "drive":
         throw new TextError(
           statement,
@@ -363,7 +456,8 @@ export class Machine extends Evaluation {
 
   private target(goal: Value, configuration: Posture | undefined, at: TextPlace): Target {
     const { tool } = this;
-    if (typeof goal !== "object")
+    if (isUnknown(goal)) throw new NotGiven(at, "a location", `${goal.name} is in none of the files`);
+    if (typeof goal !== "object" || goal.kind === "row")
       throw new TextError(
         at,
         "a location",

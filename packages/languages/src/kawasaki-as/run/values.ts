@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError, inverted, times, type Matrix, compared, computed, finite } from "../../parser/index.ts";
+import { NotGiven, TextError, inverted, times, type Matrix, compared, computed, finite } from "../../parser/index.ts";
 
 /** A place, and where it was made of a variable and a place in it: the frame that a person meant. */
 export interface PlaceValue {
@@ -12,17 +12,30 @@ export interface JointsValue {
   readonly kind: "joints";
   readonly deg: readonly number[];
 }
+/** What only the controller knows: a variable that no file gives a value. */
+export interface UnknownValue {
+  readonly kind: "unknown";
+  readonly name: string;
+}
+/** All values of a row, by their indices: handed to a program. */
+export interface RowValue {
+  readonly kind: "row";
+  readonly values: ReadonlyMap<string, Value>;
+}
 /** Truth is a number: TRUE is -1, FALSE is 0. */
-export type Value = number | string | PlaceValue | JointsValue;
+export type Value = number | string | PlaceValue | JointsValue | UnknownValue | RowValue;
+export const isUnknown = (value: Value | undefined): value is UnknownValue =>
+  typeof value === "object" && value.kind === "unknown";
+
+const KINDS = {
+  place: "a transformation",
+  joints: "a set of joint angles",
+  unknown: "what is in none of the files",
+  row: "a row of values",
+} as const;
 
 export const kindOf = (value: Value): string =>
-  typeof value === "number"
-    ? "a number"
-    : typeof value === "string"
-      ? "a text"
-      : value.kind === "place"
-        ? "a transformation"
-        : "a set of joint angles";
+  typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : KINDS[value.kind];
 const stands = (value: Value, wanted: string): string => {
   const what = kindOf(value);
   return `${what.charAt(0).toUpperCase()}${what.slice(1)} stands where ${wanted} is expected.`;
@@ -35,6 +48,7 @@ export function asNumber(value: Value, at: TextPlace): number {
 
 export function asPlace(value: Value, at: TextPlace): PlaceValue {
   if (typeof value === "object" && value.kind === "place") return value;
+  if (isUnknown(value)) throw new NotGiven(at, "a transformation", `${value.name} is in none of the files`);
   throw new TextError(at, "a transformation", stands(value, "a transformation"));
 }
 

@@ -3,6 +3,7 @@ import { TextError } from "../../parser/index.ts";
 import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../parser/basic/index.ts";
 import type {
   Argument,
+  Block,
   Expression,
   ExpressionRules,
   Routine,
@@ -92,8 +93,22 @@ const GRAMMAR: BasicGrammar = {
   expression: RULES,
   alike: { endif: "end if" },
   callsFile: new Set(["callp"]),
+  shown: {
+    act: "interrupts do not arise here",
+    input: "what comes from outside is not known here",
+    on: "jumps by what comes from outside are not taken",
+    trk: "nothing is followed here",
+    xrun: "another task does not move the arm",
+    xlod: "another task does not move the arm",
+    xstp: "another task does not move the arm",
+    cmp: "axes yield by rules of the controller",
+    jrc: "turns are not counted anew",
+    skip: "it ends a motion by an appended condition",
+  },
   unsayable: {
     goto: elsewhere("GoTo jumps"),
+    input: elsewhere("Input takes a value from outside"),
+    on: elsewhere("On jumps by a value"),
     act: elsewhere("Act belongs to interrupts"),
     mva: elsewhere("Mva moves along an arch of the controller"),
     mvc: elsewhere("Mvc goes round a whole circle"),
@@ -111,7 +126,6 @@ const GRAMMAR: BasicGrammar = {
 /** Instructions about the controller, of which a motion program keeps nothing. */
 const OF_THE_CONTROLLER: ReadonlySet<string> = new Set([
   "servo",
-  "def",
   "dim",
   "fine",
   "prec",
@@ -125,32 +139,35 @@ const OF_THE_CONTROLLER: ReadonlySet<string> = new Set([
   "open",
   "close",
   "print",
-  "input",
   "torq",
   "rem",
   "fprm",
-  "error",
   "cnt0",
 ]);
 const INSTRUCTIONS: ReadonlySet<string> = new Set(["ovrd", "jovrd", "spd", "accel", "cnt", "dly", "hopen", "hclose"]);
 const MOTIONS: ReadonlySet<string> = new Set(["mov", "mvs", "mvr"]);
 
 /** Reads MELFA-BASIC: one program, the routines behind it that it calls, and the list of its positions. */
-export const readMelfa = (text: string): BasicAnswer => new MelfaReader(text).source();
+export const readMelfa = (text: string, asText = false): BasicAnswer => new MelfaReader(text, asText).source();
+
+/** Definitions that name a variable and its sort. */
+const SORTS: ReadonlySet<string> = new Set(["pos", "jnt", "char", "inte", "long", "float", "double"]);
+/** Statements that move the arm by rules of the controller. */
+const MOVES_AWAY: ReadonlySet<string> = new Set(["mva", "mvc", "mvr2", "mvr3", "mvspl", "mxt"]);
 
 class MelfaReader extends BasicReader {
   /** Labels that are called as routines. */
   private readonly labels: ReadonlySet<string>;
   private main: Routine | undefined;
 
-  constructor(text: string) {
+  constructor(text: string, asText: boolean) {
     // A # behind a number says that it is held in double precision.
-    super(text.replace(/(\d)#(?!\w)/g, "$1 "), GRAMMAR);
+    super(text.replace(/(\d)#(?!\w)/g, "$1 "), GRAMMAR, asText);
     this.labels = new Set(Array.from(text.matchAll(/\bgosub\s*\*\s*(\w+)/gi), found => found[1]!.toLowerCase()));
   }
 
   protected override closes(word: string): boolean {
-    return word === "return";
+    return word === "return" && !(this.asText && this.labels.size === 0);
   }
   protected started(): Routine | undefined {
     return this.main;
@@ -160,9 +177,10 @@ class MelfaReader extends BasicReader {
     const { cursor } = this;
     const at = cursor.here;
     if (this.main === undefined) {
-      const body = this.body("program", at, ["end", ""]);
+      // Where jumps are carried out, End is one of several ends.
+      const body = this.body("program", at, this.asText && this.labels.size === 0 ? [""] : ["end", ""]);
       cursor.accept("end");
-      this.main = { name: "program", parameters: [], body, ...at };
+      this.main = { name: "program", parameters: [], body: this.withoutList(body), ...at };
       return;
     }
     if (cursor.isAt("number")) return cursor.advance();
@@ -174,6 +192,17 @@ class MelfaReader extends BasicReader {
       throw new TextError(at, "a label or a position", `"${cursor.raw}" stands behind the end of the program.`);
     if (!this.atEnd) throw cursor.unexpected("the end of the line");
     this.before.push(listed);
+  }
+
+  /** The list of positions that stands behind the last statement is there before the first one. */
+  private withoutList(body: Block): Block {
+    let from = body.length;
+    while (from > 0 && (body[from - 1]!.kind === "assign" || body[from - 1]!.kind === "comment")) from--;
+    const last = body[from - 1];
+    const isEnd = last?.kind === "return" || last?.kind === "halt" || (last?.kind === "do" && last.name === "goto");
+    if (!isEnd) return body;
+    this.before.push(...body.slice(from));
+    return body.slice(0, from);
   }
 
   private routineAt(at: TextPlace): void {
@@ -189,6 +218,49 @@ class MelfaReader extends BasicReader {
     this.routines.set(`*${name}`, { name, parameters: [], body, ...at });
   }
 
+  protected override statementAsText(word: string, at: TextPlace): Statement | undefined {
+    const { cursor } = this;
+    if (word === "goto") {
+      cursor.advance();
+      cursor.expect("*");
+      return this.labelled("goto", cursor.name("a label"), at);
+    }
+    if (word === "return") {
+      cursor.advance();
+      return { kind: "return", ...at };
+    }
+    if (word === "error") {
+      cursor.advance();
+      this.restOfLine();
+      return { kind: "halt", ...at };
+    }
+    if (!MOVES_AWAY.has(word)) return undefined;
+    cursor.skip(each => each.isAt("line-end"));
+    const value: Expression = { kind: "text", value: word.replace(/^./, letter => letter.toUpperCase()), ...at };
+    return { kind: "do", name: "away", args: [{ value, ...at }], ...at };
+  }
+
+  /** `Def Plt 1, P1, P2, P3, P4, 3, 2, 1`; other definitions only name variables, or are refused. */
+  private defined(at: TextPlace): Statement | undefined {
+    const { cursor } = this;
+    cursor.advance();
+    const place = cursor.here;
+    const sort = cursor.name("what is defined");
+    if (sort === "plt") return { kind: "do", name: "plt", args: this.values(), ...at };
+    if (SORTS.has(sort)) {
+      this.restOfLine();
+      return undefined;
+    }
+    if (this.asText && (sort === "act" || sort === "arch")) return this.shown(at, `Def ${sort} is kept`);
+    throw new TextError(
+      place,
+      "Plt, Pos, Jnt or a sort of numbers",
+      elsewhere(
+        `Def ${cursor.raw === "" ? sort : sort.replace(/^./, letter => letter.toUpperCase())} gives a word another meaning`,
+      ),
+    );
+  }
+
   protected instruction(at: TextPlace): Statement | undefined {
     const { cursor } = this;
     const word = cursor.next;
@@ -196,7 +268,9 @@ class MelfaReader extends BasicReader {
     if (cursor.accept("*")) {
       const place = cursor.here;
       const name = cursor.name("a label");
-      cursor.accept(":");
+      const isNamed = cursor.accept(":") || this.atEnd;
+      if (this.asText) return this.labelled(isNamed && !this.isAfterThen ? "label" : "goto", name, at);
+      if (this.isAfterThen) throw new TextError(at, "a statement", elsewhere("A label behind Then jumps"));
       if (this.labels.has(name))
         throw new TextError(place, "End before it", `The program runs into the routine ${name}.`);
       return undefined;
@@ -207,6 +281,7 @@ class MelfaReader extends BasicReader {
       return this.motion(word, at);
     }
     if (cursor.second === "=" || cursor.second === ".") return this.assigned(at);
+    if (word === "def") return this.defined(at);
     if (OF_THE_CONTROLLER.has(word)) {
       cursor.advance();
       this.restOfLine();
@@ -216,6 +291,29 @@ class MelfaReader extends BasicReader {
       cursor.advance();
       return given(this.values());
     }
+    return this.leaving(word, at) ?? this.special(word, at);
+  }
+
+  /** What ends a program or a case; undefined for anything else. */
+  private leaving(word: string, at: TextPlace): Statement | undefined {
+    const { cursor } = this;
+    switch (word) {
+      case "end":
+        cursor.advance();
+        return { kind: "return", ...at };
+      case "error":
+      case "hlt":
+        cursor.advance();
+        this.restOfLine();
+        return { kind: "halt", ...at };
+      default:
+        return undefined;
+    }
+  }
+
+  private special(word: string, at: TextPlace): Statement | undefined {
+    const { cursor } = this;
+    const given = (args: readonly Argument[]): Statement => ({ kind: "do", name: word, args, ...at });
     switch (word) {
       case "tool":
       case "base": {
@@ -234,12 +332,6 @@ class MelfaReader extends BasicReader {
       case "wait":
         cursor.advance();
         return { kind: "wait-until", when: this.value(), ...at };
-      case "end":
-        cursor.advance();
-        return { kind: "return", ...at };
-      case "hlt":
-        cursor.advance();
-        return { kind: "halt", ...at };
       // It ends a case, which nothing falls out of here.
       case "break":
         cursor.advance();
@@ -316,9 +408,27 @@ class MelfaReader extends BasicReader {
     return left;
   }
 
+  /** The number of a pallet and of one of its places. */
+  private two(): Argument[] {
+    const { cursor } = this;
+    const first = cursor.here;
+    const pallet = this.value();
+    cursor.expect(",");
+    const second = cursor.here;
+    return [
+      { value: pallet, ...first },
+      { value: this.value(), ...second },
+    ];
+  }
+
   private part1(sort: "position" | "joints"): Expression {
     const { cursor } = this;
     const { line, column } = cursor.here;
+    // `(Plt 1, M1)`: a place of a pallet.
+    if (cursor.next === "plt" && cursor.second !== "(" && cursor.second !== "=") {
+      cursor.advance();
+      return { kind: "call", name: "plt", args: this.two(), line, column };
+    }
     if (cursor.kind !== "sign" || !cursor.accept("(")) return this.value(6);
     const args: Argument[] = [];
     for (;;) {

@@ -26,6 +26,8 @@ const LEANS_FORWARD = 1;
 interface Said {
   readonly speed: Speed;
   readonly pathSpeed: Speed;
+  /** The share that Ovrd leaves of every speed. */
+  readonly override: number;
   readonly acceleration: number;
   readonly passes_mm: number | undefined;
   readonly base: Rigid;
@@ -33,6 +35,7 @@ interface Said {
 const FIRST: Said = {
   speed: { ratio: 1 },
   pathSpeed: { ratio: 1 },
+  override: 1,
   acceleration: 1,
   passes_mm: undefined,
   base: NOWHERE,
@@ -49,6 +52,10 @@ const NONFLIP = 1;
 /** Executes MELFA-BASIC statement by statement. */
 export class MelfaMachine extends BasicMachine<Said> {
   protected readonly truth = 1;
+  private readonly pallets = new Map<
+    number,
+    { readonly corners: readonly PlaceValue[]; readonly along: number; readonly across: number; readonly order: number }
+  >();
 
   constructor(stage: RunContext) {
     super(stage, { language: "melfa-basic", leansForward: LEANS_FORWARD }, FIRST);
@@ -57,6 +64,7 @@ export class MelfaMachine extends BasicMachine<Said> {
   protected known(name: string): Value | undefined {
     switch (name) {
       case "p_curr":
+        if (this.arm.isLost) return { kind: "unknown", name: "P_Curr" };
         return this.placed(this.arm.here());
       case "p_zero":
       case "p_nbase":
@@ -98,11 +106,54 @@ export class MelfaMachine extends BasicMachine<Said> {
       // Angles that are computed are in radians.
       case "setpos":
         return this.placed(rigid([x, y, z, a / DEG, b / DEG, c / DEG]));
+      case "plt":
+        return this.onPallet(call, x, y);
       case "setjnt":
         return { kind: "joints", deg: Array.from({ length: JOINTS }, (_, i) => (numbers[i] ?? 0) / DEG) };
       default:
         return this.converted(call, y, x);
     }
+  }
+
+  /**
+   * Place n of a pallet: along its first side first; 1 goes there and back in turns, 2 always in one direction. The
+   * posture is that of the first corner.
+   */
+  private onPallet(at: TextPlace, number: number, n: number): Value {
+    const pallet = this.pallets.get(number);
+    if (pallet === undefined && this.notices !== undefined) return { kind: "unknown", name: `Plt ${number}` };
+    if (pallet === undefined) throw new TextError(at, "a pallet", `Pallet ${number} is not defined.`);
+    const { corners, along, across, order } = pallet;
+    if (!Number.isInteger(n) || n < 1 || n > along * across)
+      throw new TextError(at, `a place from 1 to ${along * across}`, `Pallet ${number} has no place ${n}.`);
+    const row = Math.floor((n - 1) / along);
+    const i = (n - 1) % along;
+    const column = order === 1 && row % 2 === 1 ? along - 1 - i : i;
+    const u = along === 1 ? 0 : column / (along - 1);
+    const v = across === 1 ? 0 : row / (across - 1);
+    const [a, b, c, d] = corners.map(each => sixNumbers(this.inBase(each)));
+    const p = [0, 1, 2].map(
+      k => (1 - u) * (1 - v) * a![k]! + u * (1 - v) * b![k]! + (1 - u) * v * c![k]! + u * v * d![k]!,
+    );
+    const first = corners[0]!;
+    return { ...this.unbound(first), at: first.at.with(3, p[0]!).with(7, p[1]!).with(11, p[2]!) };
+  }
+
+  /** `Def Plt 1, P1, P2, P3[, P4], along, across, order`. */
+  private definePallet(statement: Do): void {
+    const values = statement.args.map(({ value }) => (value === undefined ? undefined : this.evaluate(value)));
+    const [number, along, across, order] = [values[0], ...values.slice(-3)].map(value =>
+      numberIn(value ?? 0, statement),
+    );
+    const given = values.slice(1, -3).flatMap(value => (value === undefined ? [] : [placeIn(value, statement)]));
+    const [a, b, c, d = undefined] = given;
+    if (a === undefined || b === undefined || c === undefined || given.length > 4 || !(along! >= 1) || !(across! >= 1))
+      throw new TextError(statement, "three or four corners and two counts", "The pallet is not understood.");
+    // Without a fourth corner the pallet is a parallelogram. Order 3 goes round on an arc.
+    if (order !== 1 && order !== 2)
+      throw new TextError(statement, "1 or 2", `The order ${order} of a pallet is not executed here.`);
+    const other = d ?? { ...c, at: moved(c.at, ...across3(a, b)) };
+    this.pallets.set(number!, { corners: [a, b, c, other], along: along!, across: across!, order });
   }
 
   /** Places of joint angles, the other way back, and what is computed of numbers. */
@@ -126,6 +177,7 @@ export class MelfaMachine extends BasicMachine<Said> {
     const kept = this.variable(this.keyOf(call));
     const run = FUNCTIONS[name];
     if (kept !== undefined) return kept;
+    if (run === undefined && this.notices !== undefined) return { kind: "unknown", name: this.keyOf(call) };
     if (run === undefined)
       throw new TextError(call, "a function of MELFA-BASIC", `"${name}" is no function that is understood here.`);
     return run(x, y);
@@ -201,13 +253,19 @@ export class MelfaMachine extends BasicMachine<Said> {
     const { name, args } = statement;
     const id = (): string => this.stepId(statement);
     const [first = 0, second] =
-      name === "tool" || name === "base" || name === "m_out" || name.startsWith("mv") || name === "mov"
+      name === "tool" ||
+      name === "base" ||
+      name === "plt" ||
+      name === "away" ||
+      name === "m_out" ||
+      name.startsWith("mv") ||
+      name === "mov"
         ? []
         : this.numbers(args);
     switch (name) {
-      // All motions are slowed by it, which a step says of itself.
+      // All motions are slowed by it.
       case "ovrd":
-        between(first, 0.01, 100, "a percentage", statement);
+        this.state = { ...this.state, override: between(first, 0.01, 100, "a percentage", statement) / 100 };
         return [];
       case "jovrd":
         this.state = { ...this.state, speed: { ratio: between(first, 0.01, 100, "a percentage", statement) / 100 } };
@@ -236,6 +294,12 @@ export class MelfaMachine extends BasicMachine<Said> {
     const { name, args } = statement;
     const id = (): string => this.stepId(statement);
     switch (name) {
+      case "plt":
+        this.definePallet(statement);
+        return [];
+      case "away":
+        this.away(statement, String(this.evaluate(args[0]!.value!)));
+        return [];
       case "hopen":
       case "hclose":
         return [{ id: id(), type: "gripper", closed: name === "hclose" }];
@@ -277,7 +341,7 @@ export class MelfaMachine extends BasicMachine<Said> {
   }
 
   private where(of: Expression | undefined, at: TextPlace): Value {
-    const value = of === undefined ? this.placed(this.arm.here()) : this.evaluate(of);
+    const value = of === undefined ? this.placed(this.hereFor(at)) : this.evaluate(of);
     if (
       typeof value === "object" &&
       value.kind === "place" &&
@@ -316,7 +380,7 @@ export class MelfaMachine extends BasicMachine<Said> {
     if (from === undefined || via === undefined || to === undefined)
       throw new TextError(statement, "three positions", "Mvr takes three positions.");
     const start = placeIn(this.where(from, statement), statement);
-    const here = this.arm.here();
+    const here = this.hereFor(statement);
     const away = this.inBase(start);
     const steps: Step[] = [];
     if (Math.hypot(away[3]! - here[3]!, away[7]! - here[7]!, away[11]! - here[11]!) > SAME_MM)
@@ -334,14 +398,31 @@ export class MelfaMachine extends BasicMachine<Said> {
   }
 
   private manner(isJoint: boolean): { readonly speed: Speed; readonly blend_m: number } {
-    const { speed, pathSpeed, acceleration, passes_mm } = this.state;
+    const { speed, pathSpeed, override, acceleration, passes_mm } = this.state;
+    const full = isJoint ? speed : pathSpeed;
     return {
-      speed: isJoint ? speed : pathSpeed,
+      speed: slowed(full, override),
       ...(acceleration < 1 ? { acceleration: { ratio: acceleration } } : {}),
       blend_m: (passes_mm ?? 0) / 1000,
     };
   }
 }
+
+/** From the first corner to the second. */
+const across3 = (a: PlaceValue, b: PlaceValue): [number, number, number] => [
+  b.at[3]! - a.at[3]!,
+  b.at[7]! - a.at[7]!,
+  b.at[11]! - a.at[11]!,
+];
+
+const slowed = (speed: Speed, share: number): Speed =>
+  share === 1
+    ? speed
+    : "mps" in speed
+      ? { mps: speed.mps * share }
+      : "ratio" in speed
+        ? { ratio: speed.ratio * share }
+        : speed;
 
 const AXES = ["x", "y", "z", "a", "b", "c"];
 const DEG = Math.PI / 180;

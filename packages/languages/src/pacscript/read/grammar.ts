@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../parser/index.ts";
 import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../parser/basic/index.ts";
-import type { Argument, ExpressionRules, Routine, Statement } from "../../parser/structured/index.ts";
+import type { Argument, Expression, ExpressionRules, Routine, Statement } from "../../parser/structured/index.ts";
 
 const RULES: ExpressionRules = {
   binary: {
@@ -78,8 +78,18 @@ const GRAMMAR: BasicGrammar = {
     word: /end[ \t]+(?:sub|if|select)\b|exit[ \t]+(?:sub|for|do)\b|[A-Za-z_][A-Za-z0-9_]*[%!$&]?/iy,
   },
   expression: RULES,
-  alike: { endif: "end if" },
+  alike: { endif: "end if", "end program": "end" },
+  backByDefault: true,
+  shown: {
+    extspeed: "it is the operator's speed",
+    input: "what comes from outside is not known here",
+    on: "errors do not arise here",
+    hold: "it waits for a person",
+    suspend: "it stops another task",
+    run: "another task does not move the arm",
+  },
   unsayable: {
+    stop: elsewhere("Stop ends all tasks"),
     goto: elsewhere("GoTo jumps"),
     gosub: elsewhere("GoSub jumps to a label"),
     run: elsewhere("Run starts another task"),
@@ -138,7 +148,19 @@ const INSTRUCTIONS: ReadonlySet<string> = new Set([
 const NUMBERS: ReadonlySet<string> = new Set(["integer", "long", "single", "double", "byte", "boolean"]);
 
 /** Reads PacScript: the subs of one file, of which `Main` is started. */
-export const readPac = (text: string): BasicAnswer => new PacReader(text, GRAMMAR).source();
+export const readPac = (text: string, asText = false): BasicAnswer => new PacReader(text, GRAMMAR, asText).source();
+
+/** Statements that move the arm by rules of the controller, or call what only it has. */
+const MOVES_AWAY: ReadonlySet<string> = new Set([
+  "archmove",
+  "drive",
+  "drivea",
+  "rotate",
+  "rotateh",
+  "gohome",
+  "driveaex",
+  "driveex",
+]);
 
 class PacReader extends BasicReader {
   protected started(): Routine | undefined {
@@ -154,6 +176,17 @@ class PacReader extends BasicReader {
       this.declaration();
       return;
     }
+    // The form of the RC7: PROGRAM name … END.
+    if (this.asText && cursor.accept("program")) {
+      const place = cursor.here;
+      const name = cursor.name("the name of the program");
+      const parameters = this.parameters();
+      const body = this.body("program", at, ["end", ""]);
+      cursor.accept("end");
+      this.routines.set(name, { name, parameters, body, ...place });
+      return;
+    }
+    if (this.asText && (cursor.accept("public") || cursor.accept("private"))) return this.part();
     cursor.expect("sub");
     this.routine("sub", "end sub", at, () => this.parameters());
   }
@@ -186,9 +219,27 @@ class PacReader extends BasicReader {
     } while (cursor.accept(","));
   }
 
+  protected override statementAsText(word: string, at: TextPlace): Statement | undefined {
+    const { cursor } = this;
+    if (word === "goto") {
+      cursor.advance();
+      cursor.accept("*");
+      return this.labelled("goto", cursor.name("a label"), at);
+    }
+    if (word === "stop" && cursor.second === "") {
+      cursor.advance();
+      return { kind: "halt", ...at };
+    }
+    if (!MOVES_AWAY.has(word)) return undefined;
+    cursor.skip(each => each.isAt("line-end"));
+    const value: Expression = { kind: "text", value: word.replace(/^./, letter => letter.toUpperCase()), ...at };
+    return { kind: "do", name: "away", args: [{ value, ...at }], ...at };
+  }
+
   protected instruction(at: TextPlace): Statement | undefined {
     const { cursor } = this;
     const word = cursor.next;
+    if (this.asText && cursor.accept("*")) return this.label(at);
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
     if (cursor.second === "=" || (cursor.second === "[" && word !== "io")) return this.assignment(at);
     if (OF_THE_CONTROLLER.has(word)) {
@@ -220,6 +271,14 @@ class PacReader extends BasicReader {
       default:
         return this.leaving(at, word);
     }
+  }
+
+  /** `*Label:`; behind THEN it is where the program goes on. */
+  private label(at: TextPlace): Statement {
+    const { cursor } = this;
+    const name = cursor.name("a label");
+    const isHere = cursor.accept(":") || cursor.isAt("line-end");
+    return this.labelled(isHere && !this.isAfterThen ? "label" : "goto", name, at);
   }
 
   /** What leaves a block, waits or sets a line, and subs that are called by their names. */

@@ -1,9 +1,10 @@
 import type { MoveStep, Speed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, missingProgram } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
   between,
+  isUnknown,
   moved,
   numberIn,
   on,
@@ -48,7 +49,7 @@ export class PacMachine extends BasicMachine<Said> {
   }
 
   protected known(name: string): Value | undefined {
-    if (name === "curpos") return this.placed(this.arm.here());
+    if (name === "curpos") return this.arm.isLost ? { kind: "unknown", name: "CurPos" } : this.placed(this.arm.here());
     return name === "pi" ? Math.PI : undefined;
   }
 
@@ -73,7 +74,13 @@ export class PacMachine extends BasicMachine<Said> {
     const { name, args } = call;
     if (name === "devh" || name === "dev") return this.beside(name, call);
     const values = args.map(({ value }) => (value === undefined ? 0 : this.evaluate(value)));
-    const numbers = (): number[] => values.map((value, i) => numberIn(value, args[i]!));
+    return this.made(call, values) ?? this.computed(call, values);
+  }
+
+  /** Places, joint angles and vectors made of numbers. */
+  private made({ name, args }: Extract<Expression, { kind: "call" }>, values: readonly Value[]): Value | undefined {
+    const numbers = (): number[] =>
+      values.map((value, i) => (isUnknown(value) ? this.numberOf(args[i]!.value!) : numberIn(value, args[i]!)));
     switch (name) {
       case "p": {
         const [x = 0, y = 0, z = 0, a = 0, b = 0, c = 0, fig = -1] = numbers();
@@ -91,12 +98,17 @@ export class PacMachine extends BasicMachine<Said> {
         return { kind: "shift", by: [x, y, z, 0, 0, 0], isOwn: false };
       }
       default:
-        break;
+        return undefined;
     }
+  }
+
+  private computed(call: Extract<Expression, { kind: "call" }>, values: readonly Value[]): Value {
+    const { name } = call;
     const run = FUNCTIONS[name];
+    if (run === undefined && this.notices !== undefined) return { kind: "unknown", name: `${name}()` };
     if (run === undefined)
       throw new TextError(call, "a function of PacScript", `"${name}" is no function that is understood here.`);
-    return run(values, call);
+    return values.find(isUnknown) ?? run(values, call);
   }
 
   /** Dev goes along the axes of the work, DevH along those of the place itself. The posture is that of the place. */
@@ -156,12 +168,21 @@ export class PacMachine extends BasicMachine<Said> {
         return [this.switched(this.numberOf(given(1, "On or Off")) !== 0, given(0, "an output"), undefined, id())];
       case "payload":
         return [this.load(statement, id())];
+      default:
+        return this.said(statement);
+    }
+  }
+
+  /** Messages, motions, and what is in none of the files. */
+  private said(statement: Do): readonly Step[] {
+    const { name, args } = statement;
+    switch (name) {
       case "print":
       case "printdbg":
       case "printmsg":
         return [
           {
-            id: id(),
+            id: this.stepId(statement),
             type: "message",
             text: args
               .map(({ value }) => {
@@ -176,7 +197,11 @@ export class PacMachine extends BasicMachine<Said> {
       case "depart":
       case "draw":
         return [this.motion(statement)];
+      case "away":
+        this.away(statement, String(this.evaluate(this.given(statement, 0, "a statement"))));
+        return [];
       default:
+        if (this.notices !== undefined) throw missingProgram(statement, name);
         throw new TextError(statement, "a statement of PacScript", `"${name}" is not understood here.`);
     }
   }
@@ -197,8 +222,16 @@ export class PacMachine extends BasicMachine<Said> {
     const n = this.numberOf(number);
     const tool = this.tools.get(n);
     const work = this.works.get(n);
-    if (n !== 0 && (what === "changetool" ? tool : work) === undefined)
-      throw new TextError(number, "a number that was defined", `Number ${n} is not defined in the text.`);
+    const isHeld = n !== 0 && (what === "changetool" ? tool : work) === undefined;
+    if (isHeld && this.notices !== undefined) {
+      const taken = what === "changetool" ? "the flange" : "the base of the robot";
+      const called = what === "changetool" ? "tool" : "work";
+      this.notices.notGiven(number, `The ${called} ${n} is in none of the files: it is taken to be ${taken}.`);
+      if (what === "changetool") this.useTool(NOWHERE, undefined);
+      else this.state = { ...this.state, work: "" };
+      return;
+    }
+    if (isHeld) throw new TextError(number, "a number that was defined", `Number ${n} is not defined in the text.`);
     if (what === "changework") this.state = { ...this.state, work: n === 0 ? "" : work! };
     else this.useTool(tool?.at ?? NOWHERE, n === 0 ? undefined : tool!.name);
   }
@@ -274,7 +307,7 @@ export class PacMachine extends BasicMachine<Said> {
       const place = placeIn(this.here(goals[0]!), at);
       return { ...this.unbound(place), at: on(place.at, rigid([0, 0, -this.numberOf(goals[1]!), 0, 0, 0])) };
     }
-    const from = this.arm.here();
+    const from = this.hereFor(at);
     if (name === "depart") return this.placed(on(from, rigid([0, 0, -this.numberOf(goals[0]!), 0, 0, 0])));
     const by = this.evaluate(goals[0]!);
     if (typeof by !== "object" || by.kind !== "shift")

@@ -1,5 +1,5 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
-import { TextError } from "../faults.ts";
+import { NotGiven, TextError } from "../faults.ts";
 import type { Notices } from "../notices.ts";
 import { rememberMap } from "../remember.ts";
 import type { DeclaredCell } from "../declared-cell.ts";
@@ -18,7 +18,7 @@ import {
 import type { BasicSource } from "./reader.ts";
 import { NOWHERE, asPose, on, type Rigid } from "./rigid.ts";
 import { UprightArm, type Upright } from "./upright.ts";
-import { NotGiven, arithmetic, isUnknown, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
+import { arithmetic, isUnknown, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
 
 /** Where a text runs. */
 export interface RunContext {
@@ -44,7 +44,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   protected readonly arm: UprightArm;
   protected state: S;
   /** Variables that never change: a place in one of them is a frame of the program. */
-  protected readonly constants: ReadonlySet<string>;
+  protected readonly constants: Set<string>;
   /** Frames by their names, from the base. */
   protected readonly frames = new Map<string, Rigid>();
   private readonly outputs = new Map<string, boolean>();
@@ -59,7 +59,7 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
     super(source.routines);
     this.notices = notices;
     this.arm = new UprightArm(robot, upright, worldFromBase);
-    this.constants = constantsOf(source.main, source.routines.values());
+    this.constants = new Set(constantsOf(source.main, source.routines.values()));
     this.declared = declared;
     this.signals = signals;
     this.state = state;
@@ -220,6 +220,18 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
       wanted !== "" && !Object.hasOwn(signals, wanted) ? wanted : `${kind === "digital-in" ? "DI" : "DO"}${address}`;
     signals[name] = { kind, address };
     return name;
+  }
+
+  protected override changed(to: Expression): void {
+    let of = to;
+    while (of.kind === "index" || of.kind === "component") ({ of } = of);
+    if (of.kind === "variable") this.constants.delete(of.name);
+  }
+
+  /** Where the arm is, for what counts from there. */
+  protected hereFor(at: TextPlace): Rigid {
+    if (this.arm.isLost) throw new NotGiven(at, "a place", "Where the robot then is is in none of the files");
+    return this.arm.here();
   }
 
   protected set(signal: string, to: boolean, id: string, pulse_s?: number): Extract<Step, { type: "set" }> {

@@ -35,6 +35,8 @@ export interface BasicGrammar {
   readonly alike: Readonly<Record<string, string>>;
   /** Statements that are understood and cannot be written as steps, with what the user is told. */
   readonly unsayable: Readonly<Record<string, string>>;
+  /** Whether an argument of which nothing is said hands its value back. */
+  readonly backByDefault?: boolean;
   /** Words that call a program of another file, by its name in quotes. */
   readonly callsFile?: ReadonlySet<string>;
   /** Statements that are kept and named where a text is executed as it is: what they do, in a few words. */
@@ -185,9 +187,9 @@ export abstract class BasicReader extends RecoveringReader {
     const all: Parameter[] = [];
     if (!cursor.accept("(") || cursor.accept(")")) return all;
     do {
-      if (!cursor.accept("byref")) cursor.accept("byval");
+      const isBack = cursor.accept("byref") || (!cursor.accept("byval") && this.grammar.backByDefault === true);
       const name = cursor.name("the name of an argument");
-      all.push({ name, type: cursor.accept("as") ? cursor.name("a type") : "" });
+      all.push({ name, type: cursor.accept("as") ? cursor.name("a type") : "", isBack });
     } while (cursor.accept(","));
     cursor.expect(")");
     return all;
@@ -243,6 +245,9 @@ export abstract class BasicReader extends RecoveringReader {
   protected labelled(name: "label" | "goto", label: string, at: TextPlace): Statement {
     return { kind: "do", name, args: [{ value: { kind: "text", value: label, ...at }, ...at }], ...at };
   }
+
+  /** The statement that is read stands in the line of its If: a label there is where the program goes on. */
+  protected isAfterThen = false;
 
   /** Statements that were read beside the last one and are done behind it. */
   protected trailing(): Statement[] {
@@ -336,8 +341,13 @@ export abstract class BasicReader extends RecoveringReader {
   private inOneLine(when: Expression, at: TextPlace): Statement {
     const { cursor } = this;
     const one = (): Block => {
-      const read = this.statement();
-      return read === undefined ? [] : [read];
+      this.isAfterThen = true;
+      try {
+        const read = this.statement();
+        return read === undefined ? [] : [read];
+      } finally {
+        this.isAfterThen = false;
+      }
     };
     const { branches, otherwise } = this.nested(at, () => ({
       branches: [{ when, body: one() }],
@@ -435,6 +445,8 @@ export function readPlainArguments(cursor: TokenCursor, depth: number, rules: Ex
   if (cursor.accept(")")) return args;
   do {
     const at = cursor.here;
+    // Said in the call as well, where a value comes back.
+    if (cursor.next === "byref") cursor.advance();
     const isLeftOut = cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
     args.push(isLeftOut ? at : { value: readExpression(cursor, rules, depth + 1), ...at });
   } while (cursor.accept(","));

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../faults.ts";
+import { NotGiven, TextError } from "../faults.ts";
 import type { Rigid, Six } from "./rigid.ts";
 
 /** What a controller says of the posture at a place; what it leaves open is undefined. */
@@ -43,9 +43,6 @@ export interface UnknownValue {
 /** Truth is a number: 0 is false. */
 export type Value = number | string | PlaceValue | JointsValue | ShiftValue | UnknownValue;
 export const isUnknown = (value: Value): value is UnknownValue => typeof value === "object" && value.kind === "unknown";
-
-/** A place that only the controller knows stands where one is needed. */
-export class NotGiven extends TextError {}
 
 const SORTS = {
   unknown: "what is in none of the files",

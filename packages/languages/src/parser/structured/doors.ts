@@ -39,10 +39,10 @@ export interface Script<M> {
   readonly warnings?: (machine: M) => readonly TextFault[];
 }
 /** A text whose program stands in it as statements, outside of routines. */
-export const mainScript = <M extends { block(block: Block): Generator<Executed, unknown> }>(
+export const mainScript = <M extends { program(block: Block): Generator<Executed, unknown> }>(
   { title, main }: { readonly title: string; readonly main: Block },
   machine: Script<M>["machine"],
-): Script<M> => ({ title, machine, run: started => started.block(main), block: () => main });
+): Script<M> => ({ title, machine, run: started => started.program(main), block: () => main });
 /** A text whose program is a routine that its machine finds. */
 export const routineScript = <M extends { main(): Generator<Executed, unknown>; open(): Block }>(
   title: string,

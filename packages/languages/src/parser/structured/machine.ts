@@ -70,6 +70,21 @@ export abstract class BlockMachine<V> {
     return "next";
   }
 
+  /** A whole program: what it jumps to stands in it. */
+  *program(block: Block): Generator<Executed, Flow> {
+    const flow = yield* this.block(block);
+    if (flow === "goto") throw this.unfound("the program");
+    return flow;
+  }
+
+  private unfound(where: string): TextError {
+    return new TextError(
+      this.soughtAt,
+      "a label of the routine",
+      `Label ${this.sought} is not in ${where}, or inside a block.`,
+    );
+  }
+
   /** Says something once. */
   protected remark(about: string, at: TextPlace, expected: string, sentence: string): void {
     if (!this.notes.has(about)) this.notes.set(about, textFault(at, expected, sentence));
@@ -195,25 +210,39 @@ export abstract class BlockMachine<V> {
   *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
     this.enter(routine, args, at);
     const { names } = this.scopes.at(-1)!;
+    const before = new Map(names);
     let flow: Flow;
     try {
       flow = yield* this.block(routine.body);
     } finally {
       this.leave();
     }
-    if (flow === "goto")
-      throw new TextError(
-        this.soughtAt,
-        "a label of the routine",
-        `Label ${this.sought} is not in ${routine.name}, or inside a block.`,
-      );
-    this.handBack(routine, names, args);
+    if (flow === "goto") throw this.unfound(routine.name);
+    this.handBack(routine, names, args, before);
     return flow === "halt" ? "halt" : "next";
   }
 
   /** Gives the variables of the caller what a routine made of its parameters. */
-  protected handBack(_routine: Routine, _names: ReadonlyMap<string, V>, _args: readonly Argument[]): void {
-    /* in most languages a routine has copies */
+  protected handBack(
+    { parameters }: Routine,
+    names: ReadonlyMap<string, V>,
+    args: readonly Argument[],
+    before: ReadonlyMap<string, V>,
+  ): void {
+    const free = args.filter(({ name }) => name === undefined);
+    for (const [i, { name, isBack }] of parameters.entries()) {
+      const value = names.get(name);
+      if (isBack !== true || value === undefined || value === before.get(name)) continue;
+      const to = (args.find(each => each.name === name) ?? free[i])?.value;
+      if (to?.kind !== "variable" && to?.kind !== "index" && to?.kind !== "component") continue;
+      this.changed(to);
+      this.store(to, value, false);
+    }
+  }
+
+  /** A routine has given a variable another value: it is none that keeps its first one. */
+  protected changed(_to: Expression): void {
+    /* most machines know no such variables */
   }
 
   /** Does something in the variables of a routine that takes no arguments. */

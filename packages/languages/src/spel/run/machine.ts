@@ -1,9 +1,8 @@
 import type { MoveStep, Speed, Step, TextPlace } from "@twincell/core";
-import { TextError, missingProgram } from "../../parser/index.ts";
+import { NotGiven, TextError, missingProgram } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
-  NotGiven,
   back,
   between,
   isUnknown,

@@ -19,8 +19,11 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
   private readonly place: TextPlace;
   private readonly parameters: readonly string[];
 
-  constructor(name: string, place: TextPlace, parameters: readonly string[]) {
-    super(name, RULES);
+  private readonly asText: boolean;
+
+  constructor(name: string, place: TextPlace, parameters: readonly string[], asText: boolean) {
+    super(name, { ...RULES, statement: cursor => readStatement(cursor, asText) });
+    this.asText = asText;
     this.place = place;
     this.parameters = parameters;
   }
@@ -57,7 +60,7 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
         this.readGoto(this.push({ kind: "jump", to: -1, at }), cursor);
         return cursor.expectEnd();
       default:
-        this.code.push({ kind: "statement", statement: readStatement(cursor) });
+        this.code.push({ kind: "statement", statement: readStatement(cursor, this.asText) });
     }
   }
 
@@ -105,6 +108,6 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
   private readDo(cursor: Cursor): void {
     if (cursor.second === "") return this.begin(cursor, "until");
     cursor.take();
-    this.code.push({ kind: "statement", statement: readStatement(cursor) });
+    this.code.push({ kind: "statement", statement: readStatement(cursor, this.asText) });
   }
 }

@@ -11,8 +11,9 @@ export type SourceAnswer =
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads a V+ disk file or a list of terminal commands. Goes on after a fault, so that all of them are told at once. */
-export function readSource(text: string): SourceAnswer {
-  const reader = new SourceReader();
+/** @param asText  the text is only executed: statements that do not move the arm may be left out and told. */
+export function readSource(text: string, asText = false): SourceAnswer {
+  const reader = new SourceReader(asText);
   const wrong = reader.read(text);
   if (wrong !== undefined) return wrong;
   return { kind: "source", source: { routines: reader.routines, immediate: reader.immediate, data: reader.data } };
@@ -27,6 +28,12 @@ class SourceReader extends LineReader {
   private section: Section = "terminal";
   private builder: RoutineBuilder | undefined;
   private opened = 0;
+  private readonly asText: boolean;
+
+  constructor(asText: boolean) {
+    super();
+    this.asText = asText;
+  }
 
   protected line(text: string, line: number): void {
     const dot = /^\s*(\.[A-Za-z]+)/.exec(text);
@@ -49,7 +56,7 @@ class SourceReader extends LineReader {
 
   private terminalLine(cursor: Cursor): void {
     cursor.accept("DO");
-    this.immediate.push(readStatement(cursor));
+    this.immediate.push(readStatement(cursor, this.asText));
   }
 
   private dotLine(word: string, text: string, line: number, at: number): void {
@@ -91,7 +98,7 @@ class SourceReader extends LineReader {
     if (cursor.nextKind !== "word") throw cursor.unexpected("the name of the program");
     const name = cursor.take().toLowerCase();
     const parameters: string[] = [];
-    this.builder = new RoutineBuilder(name, place, parameters);
+    this.builder = new RoutineBuilder(name, place, parameters, this.asText);
     checkName(name, place);
     if (cursor.accept("(")) {
       if (cursor.next !== ")")

@@ -1,7 +1,7 @@
 import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { checkName, readExpression, readVariable } from "./expression.ts";
-import type { ConfigWord, Expression, Statement } from "./syntax.ts";
+import type { ConfigWord, Expression, Statement, Variable } from "./syntax.ts";
 
 type Body<S> = S extends unknown ? Omit<S, "line" | "column"> : never;
 type Reader = (cursor: Cursor, word: string) => Body<Statement>;
@@ -50,6 +50,18 @@ function speed(cursor: Cursor): Body<Statement> {
   return { kind: "speed", value, unit, always: cursor.accept("ALWAYS") };
 }
 
+/** `AUTO REAL i, p[]`, `LOCAL LOC place`. */
+function own(cursor: Cursor, word: string): Body<Statement> {
+  if (["REAL", "DOUBLE", "LOC", "STRING"].includes(cursor.next) && cursor.second !== "," && cursor.second !== "")
+    cursor.take();
+  const names: string[] = [];
+  while (!cursor.done) {
+    if (cursor.nextKind === "word") names.push(cursor.take().toLowerCase());
+    else cursor.take();
+  }
+  return { kind: "own", names, keeps: word === "LOCAL" };
+}
+
 function switches(cursor: Cursor, word: string): Body<Statement> {
   const name = cursor.next;
   without(cursor, word);
@@ -63,7 +75,14 @@ function call(cursor: Cursor): Body<Statement> {
   checkName(program, at);
   const args: Expression[] = [];
   if (cursor.accept("(")) {
-    if (cursor.next !== ")") args.push(...expressions(cursor));
+    if (cursor.next !== ")")
+      do {
+        const { line, column } = cursor.here;
+        const isValue = cursor.next === "(";
+        const arg = readExpression(cursor);
+        // In brackets of its own a variable stays what it is.
+        args.push(isValue && arg.kind === "variable" ? { kind: "compound", parts: [arg], line, column } : arg);
+      } while (cursor.accept(","));
     cursor.expect(")");
   }
   return { kind: "call", program, args };
@@ -170,8 +189,8 @@ const READERS: Readonly<Record<string, Reader>> = {
   ATTACH: without,
   DETACH: without,
   GLOBAL: without,
-  LOCAL: without,
-  AUTO: without,
+  LOCAL: own,
+  AUTO: own,
   TIMER: without,
 };
 
@@ -187,6 +206,24 @@ function approach(cursor: Cursor, straight: boolean): Body<Statement> {
   return { kind: "approach", straight, location, distance: readExpression(cursor) };
 }
 
+/** Statements that speak with people, files, other tasks and reactions, and do not move the arm by themselves. */
+const KEPT: ReadonlySet<string> = new Set(
+  "READ WRITE PROMPT REACT REACTI REACTE IGNORE EXECUTE ABORT IOPUT DEFIO FOPEN FOPENR FOPENW FOPENA FOPEND FCLOSE FSET FCMND MC MCS SETEVENT CLEAR.EVENT RELEASE LOCK RESET BITS GETEVENT SELECT PRIME PROCEED CYCLE.END KILL STATUS PANEL VSTATE".split(
+    " ",
+  ),
+);
+
+/** The variables of a statement that is left out lose their values where it would have read them from outside. */
+function kept(cursor: Cursor, word: string): Body<Statement> {
+  const forgets: Variable[] = [];
+  const gives = /^(?:READ|PROMPT|GETEVENT)$/.test(word);
+  while (!cursor.done) {
+    if (gives && cursor.nextKind === "word") forgets.push(readVariable(cursor));
+    else cursor.take();
+  }
+  return { kind: "kept", word, forgets };
+}
+
 /** Why a word that V+ or a neighbouring language knows is refused here. */
 const REFUSED: Readonly<Record<string, string>> = {
   ELSEIF: "V+ has no ELSEIF: nest IF inside ELSE.",
@@ -196,11 +233,11 @@ const REFUSED: Readonly<Record<string, string>> = {
 };
 
 /** One statement that moves, sets or waits; control words (IF, FOR, …) are read by `blocks.ts`. */
-export function readStatement(cursor: Cursor): Statement {
+export function readStatement(cursor: Cursor, asText = false): Statement {
   const { line, column } = cursor.here;
   const word = cursor.next;
   if (cursor.nextKind !== "word") throw cursor.unexpected("a statement");
-  const reader = READERS[word];
+  const reader = asText && KEPT.has(word) ? kept : READERS[word];
   // A name followed by = is assigned to, even where it is also a word of the language.
   if (cursor.second === "=" || cursor.second === "[") {
     if (reader === undefined || cursor.second === "=") return { ...assignment(cursor), line, column };

@@ -16,7 +16,7 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { proveText } from "../../prove.ts";
-import { interpretVPlus } from "../interpret.ts";
+import { interpretWhole } from "../interpret.ts";
 import { fromTrans, toPose } from "../run/transform.ts";
 import { TextError } from "../../parser/index.ts";
 import { outlineOf, type Node, type Pattern, type Structure } from "./outline.ts";
@@ -39,7 +39,7 @@ export function structuredProgram(
 ): Structured | undefined {
   const structure = outlineOf(lines);
   if (structure === undefined) return undefined;
-  const interpreted = interpretVPlus(structure.flat, robot, worldFromBase);
+  const interpreted = interpretWhole(structure.flat, robot, worldFromBase);
   const steps = new Map<number, Step[]>();
   if (interpreted.kind === "not-understood") return structure.plain ? interpreted : undefined;
   try {
@@ -69,7 +69,7 @@ export function structuredProgram(
     steps: main,
   };
   if (structure.plain) return { kind: "program", program };
-  const proof = proveText({ interpret: interpretVPlus }, { name: "", text }, program, robot, worldFromBase);
+  const proof = proveText({ interpret: interpretWhole }, { name: "", text }, program, robot, worldFromBase);
   return proof.kind === "proven" ? { kind: "program", program } : undefined;
 }
 

@@ -55,6 +55,10 @@ export type Statement = TextPlace &
     | { readonly kind: "call"; readonly program: string; readonly args: readonly Expression[] }
     | { readonly kind: "return" }
     | { readonly kind: "stop" }
+    /** AUTO and LOCAL: variables of this program alone; those of LOCAL keep their values from call to call. */
+    | { readonly kind: "own"; readonly names: readonly string[]; readonly keeps: boolean }
+    /** What is left out of a text that is executed, and the variables that it would have given values from outside. */
+    | { readonly kind: "kept"; readonly word: string; readonly forgets: readonly Variable[] }
     /**
      * Statements that ask for accuracy or say something to the operator: read, and without effect on where the robot
      * goes.

@@ -9,7 +9,7 @@ import {
   type Step,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, missingProgram, type ShownAxes } from "../../parser/index.ts";
+import { NotGiven, TextError, missingProgram, type Notices, type ShownAxes } from "../../parser/index.ts";
 import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
 import { ControllerState, type DeclaredContext } from "./state.ts";
 import { fromTrans, times, type Transform } from "./transform.ts";
@@ -27,6 +27,14 @@ interface Frame {
   readonly last: number[];
   readonly step: number[];
   readonly chosen: Value[];
+  /** Variables of this program alone, and what variables of their names held outside. */
+  readonly own: { readonly name: string; readonly held: ReadonlyMap<string, Value>; readonly keeps: boolean }[];
+  /** Parameters, what was given for them, and the value they began with. */
+  readonly given: {
+    readonly parameter: string;
+    readonly to: Expression | undefined;
+    readonly before: Value | undefined;
+  }[];
 }
 
 /** Executes a V+ text statement by statement. Deterministic: the same text gives the same steps. */
@@ -39,6 +47,9 @@ export class Machine {
   private readonly since: Executed[] = [];
   private readonly times = new Map<number, number>();
   private idle = 0;
+  private readonly notices: Notices | undefined;
+  /** What variables of LOCAL held when their program was left. */
+  private readonly keptValues = new Map<string, ReadonlyMap<string, Value>>();
 
   constructor(
     source: Source,
@@ -47,9 +58,11 @@ export class Machine {
     worldFromBase: Pose<"world", "base">,
     met: DeclaredContext,
     signals: Signals = new SignalTable(),
+    notices?: Notices,
   ) {
     this.source = source;
-    this.state = new ControllerState(robot, axes, worldFromBase, met, signals);
+    this.notices = notices;
+    this.state = new ControllerState(robot, axes, worldFromBase, met, signals, notices);
     // A program that looks at a line waits for something outside: it does not run on the spot.
     this.state.onRead = () => {
       this.idle = 0;
@@ -74,11 +87,51 @@ export class Machine {
     while ((frame = stack.at(-1)) !== undefined) {
       const instruction = frame.routine.instructions[frame.at++];
       if (instruction === undefined) {
-        stack.pop();
+        this.leave(stack);
         continue;
       }
-      if (instruction.kind === "statement") yield* this.statement(instruction.statement, stack);
+      if (instruction.kind === "statement") yield* this.lenient(instruction.statement, stack);
       else this.control(instruction, frame);
+    }
+  }
+
+  /** What only the controller knows is left out and told; the arm is then somewhere. */
+  private *lenient(statement: Statement, stack: Frame[]): Generator<Executed, void> {
+    const { notices, state } = this;
+    if (statement.kind === "own" || statement.kind === "kept") {
+      this.keptBack(statement, stack.at(-1));
+      return yield* this.note({ line: statement.line });
+    }
+    try {
+      yield* this.statement(statement, stack);
+    } catch (cause) {
+      if (!(cause instanceof NotGiven) || notices === undefined) throw cause;
+      const { kind } = statement;
+      const isMotion = kind === "move" || kind === "approach" || kind === "depart" || kind === "drive";
+      if (isMotion) state.isLost = true;
+      if (kind === "set" || kind === "here" || kind === "decompose") state.take(keyOf(statement.to, state));
+      if (kind === "tool") state.setTool(fromTrans(0, 0, 0, 0, 0, 0), undefined);
+      const instead =
+        kind === "tool" ? "it is taken to be the flange." : `${isMotion ? "the motion" : "the line"} is not executed.`;
+      notices.notGiven(statement, `${cause.message}: ${instead}`);
+      yield* this.note({ line: statement.line });
+    }
+  }
+
+  /** The end of a program: its own variables go, and its arguments come back to where they were given from. */
+  private leave(stack: Frame[]): void {
+    const frame = stack.pop();
+    if (frame === undefined) return;
+    const { state } = this;
+    const back = frame.given.map(({ parameter }) => state.read(parameter));
+    for (const { name, held, keeps } of frame.own.toReversed()) {
+      const values = state.take(name);
+      if (keeps) this.keptValues.set(`${frame.routine.name} ${name}`, values);
+      for (const [key, value] of held) state.write(key, value);
+    }
+    for (const [i, { to, before }] of frame.given.entries()) {
+      const value = back[i];
+      if (to?.kind === "variable" && value !== undefined && value !== before) state.write(keyOf(to, state), value);
     }
   }
 
@@ -153,7 +206,7 @@ export class Machine {
         break;
       }
       case "here":
-        state.write(keyOf(statement.to, state), state.here());
+        state.write(keyOf(statement.to, state), state.here(statement));
         break;
       case "decompose":
         for (const [i, component] of state.decomposed(location(statement.location, state)).entries()) {
@@ -250,13 +303,7 @@ export class Machine {
       case "wait":
         if (statement.condition !== undefined && isOneSignal(statement.condition))
           return yield* this.waitFor(statement, statement.condition.args[0]);
-        if (statement.condition !== undefined && number(statement.condition, state) === 0) {
-          throw new TextError(
-            statement.condition,
-            "a condition that comes true",
-            "The program waits for a condition that nothing here makes true.",
-          );
-        }
+        if (statement.condition !== undefined) this.comesTrue(statement, statement.condition);
         break;
       case "delay":
         return yield* this.delay(statement, number(statement.time, state));
@@ -271,7 +318,7 @@ export class Machine {
         this.call(statement, stack);
         break;
       case "return":
-        stack.pop();
+        this.leave(stack);
         break;
       case "stop":
         stack.length = 0;
@@ -281,6 +328,38 @@ export class Machine {
         break;
     }
     yield* this.note({ line: statement.line });
+  }
+
+  /** A wait for what is no single line: it must be so, or is told where a text is executed as it is. */
+  private comesTrue(at: TextPlace, condition: Expression): void {
+    if (number(condition, this.state) !== 0) return;
+    if (this.notices === undefined)
+      throw new TextError(
+        condition,
+        "a condition that comes true",
+        "The program waits for a condition that nothing here makes true.",
+      );
+    this.notices.add(
+      at,
+      "a condition of one line",
+      `Line ${at.line} waits for what nothing here makes true: the program goes on as if it were.`,
+    );
+  }
+
+  /** Variables of this program alone; what is kept and shown, of which what would come from outside has no value. */
+  private keptBack(statement: Extract<Statement, { kind: "own" | "kept" }>, frame: Frame | undefined): void {
+    if (statement.kind === "own") {
+      for (const name of statement.names) {
+        if (frame === undefined || frame.own.some(each => each.name === name)) continue;
+        frame.own.push({ name, held: this.state.take(name), keeps: statement.keeps });
+        for (const [key, value] of this.keptValues.get(`${frame.routine.name} ${name}`) ?? [])
+          this.state.write(key, value);
+      }
+      return;
+    }
+    const sentence = `${statement.word} is kept and shown, and not executed.`;
+    this.notices?.add(statement, "a statement that moves the robot", sentence);
+    for (const variable of statement.forgets) this.state.take(keyOf(variable, this.state));
   }
 
   private *motion(
@@ -315,7 +394,7 @@ export class Machine {
       case "drive":
         return state.driven(number(statement.joint, state), number(statement.change, state), statement);
       case "depart":
-        return back(state.here(), number(statement.distance, state));
+        return back(state.here(statement), number(statement.distance, state));
       case "approach": {
         const target = location(statement.location, state);
         return back(target.kind === "precision" ? state.reached(target) : target, number(statement.distance, state));
@@ -333,6 +412,14 @@ export class Machine {
   private *set(statement: Extract<Statement, { kind: "signal" }>): Generator<Executed, void> {
     yield* this.settle(this.state.continuous ? "continuous" : 0);
     for (const expression of statement.signals) {
+      const plain = expression.kind === "unary" && expression.sign === "-" ? expression.of : expression;
+      if (plain.kind === "variable" && this.state.isMissing(keyOf(plain, this.state))) {
+        const signal = this.state.namedOutput(plain.name);
+        this.state.wrote(signal, plain === expression);
+        const to = plain === expression;
+        yield this.done(statement, { id: this.stepId(statement.line), type: "set", signal, to });
+        continue;
+      }
       const signed = Math.trunc(number(expression, this.state));
       if (signed === 0) throw new TextError(expression, "a signal from 1", "There is no signal 0.");
       const signal = this.state.line(Math.abs(signed), signalName(expression));
@@ -344,6 +431,12 @@ export class Machine {
 
   private *waitFor(statement: Statement, expression: Expression): Generator<Executed, void> {
     yield* this.settle(0);
+    const plain = expression.kind === "unary" && expression.sign === "-" ? expression.of : expression;
+    if (plain.kind === "variable" && this.state.isMissing(keyOf(plain, this.state))) {
+      this.state.named(plain.name);
+      const when = { signal: plain.name, is: plain === expression };
+      return yield this.done(statement, { id: this.stepId(statement.line), type: "wait-for", when });
+    }
     const signed = Math.trunc(number(expression, this.state));
     const signal = this.state.line(Math.abs(signed), signalName(expression));
     yield this.done(statement, { id: this.stepId(statement.line), type: "wait-for", when: { signal, is: signed > 0 } });
@@ -369,9 +462,23 @@ export class Machine {
         `${routine.parameters.length} arguments`,
         `Program ${statement.program} takes ${routine.parameters.length} arguments; ${statement.args.length} are given.`,
       );
-    const values = statement.args.map(arg => evaluate(arg, this.state));
-    for (const [i, value] of values.entries()) this.state.write(routine.parameters[i]!, value);
-    stack.push(newFrame(routine));
+    const { state } = this;
+    const values = statement.args.map(arg => this.argument(arg));
+    const frame = newFrame(routine);
+    // Parameters are the program's own; what it makes of them goes back into the variables that were given.
+    for (const [i, name] of routine.parameters.entries()) {
+      frame.own.push({ name, held: state.take(name), keeps: false });
+      const value = values[i];
+      if (value !== undefined) state.write(name, value);
+      frame.given.push({ parameter: name, to: statement.args[i], before: value });
+    }
+    stack.push(frame);
+  }
+
+  /** What a program is called with; a variable without a value is given on without one. */
+  private argument(arg: Expression): Value | undefined {
+    if (arg.kind === "variable" && this.state.isMissing(keyOf(arg, this.state))) return undefined;
+    return evaluate(arg, this.state);
   }
 
   /** Hands out the motion that was waiting for what comes after it. */
@@ -420,4 +527,12 @@ const isOneSignal = (
   condition.args.length === 1 &&
   condition.args[0] !== undefined;
 
-const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
+const newFrame = (routine: Routine): Frame => ({
+  routine,
+  at: 0,
+  last: [],
+  step: [],
+  chosen: [],
+  own: [],
+  given: [],
+});

@@ -13,8 +13,8 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, type ShownAxes } from "../../parser/index.ts";
-import type { ConfigWord } from "../read/syntax.ts";
+import { NotGiven, TextError, type Notices, type ShownAxes } from "../../parser/index.ts";
+import type { ConfigWord, Variable } from "../read/syntax.ts";
 import {
   NULL_TRANSFORM,
   components,
@@ -81,6 +81,10 @@ export class ControllerState implements Memory {
   private flange: Transform;
   /** The joints there; unknown after a move to a transformation, whose joints the controller chooses. */
   private joints_deg: readonly number[] | undefined;
+  /** Where the arm is hangs on what only the controller knows. */
+  isLost = false;
+  /** Takes what only the controller knows; without, such a thing is refused. */
+  private readonly notices: Notices | undefined;
 
   constructor(
     robot: Robot,
@@ -88,7 +92,9 @@ export class ControllerState implements Memory {
     worldFromBase: Pose<"world", "base">,
     { tools, lines }: DeclaredContext,
     signals: Signals,
+    notices?: Notices,
   ) {
+    this.notices = notices;
     this.robot = robot;
     this.lines = lines;
     this.signals = signals;
@@ -100,6 +106,38 @@ export class ControllerState implements Memory {
     this.vendorFromBase = inverse(robot.baseFromVendorWorld);
     this.joints_deg = axes.degrees(robot.home_rad);
     this.flange = this.flangeAt(this.joints_deg);
+  }
+
+  isMissing(key: string): boolean {
+    return this.notices !== undefined && this.variables.get(key) === undefined;
+  }
+
+  inPlaceOf({ name, ...at }: Variable, key: string): Value | undefined {
+    if (this.notices === undefined) return undefined;
+    const isText = name.startsWith("$");
+    this.notices.notGiven(at, `${key} is in none of the files: it is taken as ${isText ? "an empty text" : "0"}.`);
+    return isText ? "" : 0;
+  }
+
+  named(variable: string): boolean {
+    this.onRead();
+    this.lines[variable] ??= { kind: "digital-in" };
+    const value = this.written.get(variable) ?? this.signals.read(variable);
+    return typeof value === "number" ? value !== 0 : value;
+  }
+
+  /** An output that goes by the name of the variable that holds its number in the controller. */
+  namedOutput(variable: string): string {
+    this.lines[variable] = { kind: "digital-out" };
+    return variable;
+  }
+
+  /** Takes a variable, or an array of that name, away: the answer is what it held. */
+  take(name: string): ReadonlyMap<string, Value> {
+    const held = new Map<string, Value>();
+    for (const [key, value] of this.variables) if (key === name || key.startsWith(`${name}[`)) held.set(key, value);
+    for (const key of held.keys()) this.variables.delete(key);
+    return held;
   }
 
   read(key: string): Value | undefined {
@@ -133,7 +171,8 @@ export class ControllerState implements Memory {
     this.acceleration = ratio < 1 ? { ratio } : undefined;
   }
 
-  here(): Transform {
+  here(at: TextPlace): Transform {
+    if (this.isLost) throw new NotGiven(at, "a place", "Where the robot then is is in none of the files");
     return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp);
   }
   reached(precision: Precision): Transform {
@@ -183,6 +222,7 @@ export class ControllerState implements Memory {
 
   /** The neutral step of a motion to that location; from now on the arm is there. */
   moveTo(id: string, location: Transform | Precision, straight: boolean): MoveStep {
+    this.isLost = false;
     const target = location.kind === "precision" ? this.toJoints(location) : this.toTransform(location);
     const speed = this.onceDuration ?? this.duration ?? this.onceSpeed ?? this.speed;
     this.onceDuration = this.onceSpeed = undefined;
@@ -201,8 +241,8 @@ export class ControllerState implements Memory {
   driven(joint: number, change_deg: number, at: TextPlace): Precision {
     if (!(joint >= 1 && joint <= this.joints))
       throw new TextError(at, `a joint from 1 to ${this.joints}`, `The robot has no joint ${joint}.`);
-    if (this.joints_deg === undefined)
-      throw new TextError(
+    if (this.joints_deg === undefined || this.isLost)
+      throw new NotGiven(
         at,
         "a motion to a precision point before it",
         "DRIVE turns a joint from where it is, and after a motion to a transformation the joint values are the controller's choice.",

@@ -1,4 +1,5 @@
-import { TextError, compared, computed } from "../../parser/index.ts";
+import type { TextPlace } from "@twincell/core";
+import { NotGiven, TextError, compared, computed } from "../../parser/index.ts";
 import type { Expression, Variable } from "../read/syntax.ts";
 import { NULL_TRANSFORM, about, frameOf, fromTrans, inverted, shifted, times, type Transform } from "./transform.ts";
 
@@ -15,7 +16,15 @@ export interface Memory {
   /** State of a digital signal; `name` is that of the variable that holds the number, if one does. */
   signal(number: number, name: string | undefined): boolean;
   /** The tool now (HERE) and at the end of the motion under way (DEST), in the world of the program. */
-  here(): Transform;
+  here(at: TextPlace): Transform;
+  /**
+   * Whether a variable lives in the controller and in none of the files; only where a text is executed as it is.
+   */
+  isMissing(key: string): boolean;
+  /** What stands for a number or a text that only the controller has; undefined where that is refused. */
+  inPlaceOf(variable: Variable, key: string): Value | undefined;
+  /** A line that goes by the name of a variable which holds its number in the controller. */
+  named(variable: string): boolean;
   /** Where the tool is when the joints have these values. */
   reached(precision: Precision): Transform;
   readonly joints: number;
@@ -34,7 +43,8 @@ export function evaluate(expression: Expression, memory: Memory): Value {
     case "text":
       return expression.value;
     case "variable": {
-      const value = memory.read(keyOf(expression, memory));
+      const key = keyOf(expression, memory);
+      const value = memory.read(key) ?? memory.inPlaceOf(expression, key);
       if (value === undefined)
         throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
       return value;
@@ -46,6 +56,8 @@ export function evaluate(expression: Expression, memory: Memory): Value {
     case "binary":
       return binary(expression, memory);
     case "compound":
+      // A variable in brackets of its own.
+      if (expression.parts.length === 1) return evaluate(expression.parts[0]!, memory);
       return expression.parts.map(part => transform(part, memory)).reduce(times);
     case "call":
       return call(expression, memory);
@@ -74,7 +86,15 @@ export function number(expression: Expression, memory: Memory): number {
   return value;
 }
 
+/** A place that only the controller has is no number that may be taken as 0. */
+function given(expression: Expression, memory: Memory): void {
+  const of = expression.kind === "compound" && expression.parts.length === 1 ? expression.parts[0]! : expression;
+  if (of.kind === "variable" && memory.isMissing(keyOf(of, memory)))
+    throw new NotGiven(of, "a location", `${of.name} is in none of the files`);
+}
+
 export function transform(expression: Expression, memory: Memory): Transform {
+  given(expression, memory);
   const value = evaluate(expression, memory);
   if (typeof value === "number" || typeof value === "string" || value.kind === "precision") {
     throw new TextError(
@@ -87,6 +107,7 @@ export function transform(expression: Expression, memory: Memory): Transform {
 }
 
 export function location(expression: Expression, memory: Memory): Transform | Precision {
+  given(expression, memory);
   const value = evaluate(expression, memory);
   if (typeof value === "number" || typeof value === "string") {
     throw new TextError(expression, "a location", `A ${kindOf(value)} stands where a location is expected.`);
@@ -192,6 +213,9 @@ const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, 
     (args, memory) =>
       truth(
         args.every(arg => {
+          const plain = arg.kind === "unary" && arg.sign === "-" ? arg.of : arg;
+          if (plain.kind === "variable" && memory.isMissing(keyOf(plain, memory)))
+            return memory.named(plain.name) === (plain === arg);
           const signal = Math.trunc(number(arg, memory));
           return memory.signal(Math.abs(signal), signalName(arg)) === signal > 0;
         }),
@@ -217,8 +241,8 @@ const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, 
     },
   ],
   NULL: [0, 0, () => NULL_TRANSFORM],
-  HERE: [0, 0, (_, memory) => memory.here()],
-  DEST: [0, 0, (_, memory) => memory.here()],
+  HERE: [0, 0, (_, memory, at) => memory.here(at)],
+  DEST: [0, 0, (_, memory, at) => memory.here(at)],
 };
 
 function call(expression: Call, memory: Memory): Value {

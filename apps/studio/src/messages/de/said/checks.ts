@@ -123,6 +123,12 @@ export const saidByChecks: Sentences = {
     "Am meisten verlangt wird von Achse {n}: {value} von {limit} N bei {time} s.",
   "The torques of {robot} cannot be judged: what its joints can give is not published.":
     "Die Drehmomente des {robot} lassen sich nicht beurteilen: Was seine Achsen leisten, ist nicht veröffentlicht.",
+  "The {what} weighs {load} kg; the {robot} lifts at most {limit} kg.":
+    "{what}: {load} kg; der {robot} hebt höchstens {limit} kg.",
+  "The {what} weighs {load} kg; above {limit} kg the {robot} moves at reduced speed.":
+    "{what}: {load} kg; über {limit} kg bewegt sich der {robot} langsamer.",
+  "tool alone": "Werkzeug allein",
+  "tool with “{part}”": "Werkzeug mit „{part}“",
   "The load is {load} kg; the {robot} lifts at most {limit} kg.":
     "Die Last ist {load} kg; der {robot} hebt höchstens {limit} kg.",
   "The load is {load} kg; above {limit} kg the {robot} moves at reduced speed.":
@@ -304,6 +310,8 @@ export const saidByChecks: Sentences = {
   "Masses of the links are not published.": "Die Massen der Glieder sind nicht veröffentlicht.",
   "Centres of mass and inertias of the links are not published.":
     "Schwerpunkte und Trägheiten der Glieder sind nicht veröffentlicht.",
+  "Part of the name that the maker gives the model.": "Teil des Namens, den der Hersteller dem Modell gibt.",
+  "The maker's data sheet of the model.": "Das Datenblatt des Herstellers zum Modell.",
   "Computed from these lengths.": "Aus diesen Längen errechnet.",
   "The payload is not stated: whether the robot carries a load is unknown.":
     "Die Traglast ist nicht angegeben: Ob der Roboter eine Last trägt, ist unbekannt.",

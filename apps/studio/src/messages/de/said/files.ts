@@ -2,6 +2,28 @@ import type { Sentences } from "../../sentences.ts";
 
 /** German: what readers of files, texts and recordings, cameras and the physics say. */
 export const saidByReaders: Sentences = {
+  // Robots out of picked axes
+  "A robot has at least one axis: pick a bore, a shaft or a round edge.":
+    "Ein Roboter hat mindestens eine Achse: eine Bohrung, eine Welle oder eine runde Kante wählen.",
+  "A robot has at least one part.": "Ein Roboter hat mindestens ein Teil.",
+  "The axis of {joint} has no direction.": "Die Achse von {joint} hat keine Richtung.",
+  "The lower limit of {joint} is not below its upper one.":
+    "Die untere Grenze von {joint} liegt nicht unter der oberen.",
+  "The speed of {joint} is not above 0.": "Die Geschwindigkeit von {joint} ist nicht über 0.",
+  "joint {n}": "Achse {n}",
+  "{name} belongs to link {n}, but the last link is {last}.":
+    "{name} gehört zu Glied {n}, aber das letzte Glied ist {last}.",
+  "The density is above 0.": "Die Dichte ist über 0.",
+  "Masses and inertias are those of solids of {density} kg/m³.":
+    "Massen und Trägheiten sind die von Vollkörpern mit {density} kg/m³.",
+  "{name} is not closed: it weighs as much as the box around it.":
+    "{name} ist nicht geschlossen: Es wiegt so viel wie der Quader darum.",
+  "Link {n} has no part: the robot has no masses, and torques are not computed.":
+    "Glied {n} hat kein Teil: Der Roboter hat keine Massen, und Momente werden nicht berechnet.",
+  "Joint accelerations were not given: full joint speed is assumed to be reached in {s} s.":
+    "Achsbeschleunigungen wurden nicht angegeben: Die volle Achsgeschwindigkeit sei in {s} s erreicht.",
+  "Axes that were picked on the parts, with typed limits and speeds.":
+    "Achsen, die an den Teilen gewählt wurden, mit eingegebenen Grenzen und Geschwindigkeiten.",
   // Shapes
   "{triangles} without area left out.": "{triangles} ohne Fläche ausgelassen.",
   "{triangles} with coordinates that are not numbers left out.":

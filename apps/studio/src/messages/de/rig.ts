@@ -1,0 +1,58 @@
+import type { mate as englishMate, rig as english } from "../en/rig.ts";
+import type { Translation } from "../catalogue.ts";
+
+export const rig = {
+  title: "Roboter bauen",
+  pickAxes:
+    "Bohrungen, Wellen oder runde Kanten der Reihe nach anklicken, von der Basis zum Werkzeug: Jede wird ein Gelenk. " +
+    "Eine ebene Fläche wird eines, das schiebt.",
+  pickFlange: "Die Fläche oder runde Kante anklicken, an der das Werkzeug sitzt.",
+  name: "Name des Roboters",
+  mine: "Mein Roboter",
+  "jointName(n: number)": "achse_{n}",
+  axes: "Achsen, Basis zuerst",
+  noAxes: "Noch ist keine Achse gewählt.",
+  turns: "dreht",
+  slides: "schiebt",
+  kind: "Art des Gelenks",
+  lower: "Untere Grenze",
+  upper: "Obere Grenze",
+  speed: "Volle Geschwindigkeit",
+  unitsOfTurn: "Grenzen in °, volle Geschwindigkeit in °/s",
+  unitsOfSlide: "Grenzen in mm, volle Geschwindigkeit in mm/s",
+  "ofJoint(what, n: number)": "{what}, Achse {n}",
+  "reverse(n: number)": "Richtung von Achse {n} umkehren",
+  "remove(n: number)": "Achse {n} entfernen",
+  "diameter(mm)": "⌀ {mm} mm",
+  parts: "Teile",
+  "link(n: number)": "Glied {n}",
+  base: "Basis",
+  notIn: "Gehört nicht dazu",
+  "linkOf(name)": "Glied von {name}",
+  flange: "Flansch",
+  flangeAtLast: "An der letzten Achse",
+  "flangeAt(x, y, z)": "Bei {x}, {y}, {z} mm",
+  chooseFlange: "Flansch wählen",
+  density: "Dichte",
+  densityMark: "kg/m³",
+  use: "Als Roboter dieser Zelle verwenden",
+  useSays: "Der Roboter tritt an die Stelle seiner Teile und des Roboters der Zelle. Rückgängig bringt beides zurück.",
+  close: "Schließen",
+  working: "Der Roboter wird berechnet …",
+} satisfies Translation<typeof english>;
+
+export const mate = {
+  pickMoving: "Eine Fläche, Bohrung oder Welle des Objekts anklicken, das sich bewegt.",
+  pickFixed: "Anklicken, wohin es soll: Fläche zu Fläche, Achse zu Achse.",
+  same: "Beide liegen auf dem, was sich bewegt. Die zweite auf einem anderen Objekt wählen.",
+  differ: "Eine Fläche und eine Achse lassen sich nicht fügen.",
+  differHint: "Zu einer Fläche eine Fläche wählen, zu einer Achse eine Bohrung, Welle oder runde Kante.",
+  locked: "Dieses Objekt ist gesperrt.",
+  undo: "Fügen",
+  planes: "Fläche auf Fläche",
+  axes: "Achse auf Achse",
+  flip: "Umdrehen",
+  gap: "Spalt",
+  shift: "Abstand entlang der Achse",
+  again: "Weiteres fügen",
+} satisfies Translation<typeof englishMate>;
