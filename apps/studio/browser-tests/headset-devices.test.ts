@@ -1,17 +1,13 @@
-import { distance, type Vector3 } from "@twincell/core";
 import { saveDocument, tracedCartonCell } from "@twincell/project";
-import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, beforeAll, expect, test } from "vitest";
 import { cpuDuring } from "./support/cpu.ts";
-import { INDEX, PICO, VISION, VIVE } from "./support/headset-devices.ts";
+import { VIVE } from "./support/headset-devices.ts";
 import { Person } from "./support/headset.ts";
 import { ledger, quantile } from "./support/ledger.ts";
 import { drawn, picture, Studio, type Page } from "./support/studio.ts";
 
-/** Every device here is emulated: its controllers from the W3C registry of input profiles, its display as published. */
+/** Emulated: the controllers from the W3C registry of input profiles, the display as published. */
 const OVER_CARTON_DEG = [0, -50, 190, 0, 40, 0];
-/** Draw calls are left out where hands and keys are asked and no picture. */
-const HANDS_ONLY = ledger("paced");
-const WAY: Vector3 = [0.06, -0.05, 0.04];
 
 let studio: Studio;
 beforeAll(async () => {
@@ -28,102 +24,6 @@ const stand = (page: Page): Promise<void> =>
     },
     OVER_CARTON_DEG.map(value => (value * Math.PI) / 180),
   );
-const steps = (page: Page): Promise<number> =>
-  page.evaluate(() => {
-    const { document } = window.twincell.stores.cellStore.getState();
-    return document!.programs
-      .filter(each => each.format === "twincell.program")
-      .find(each => each.name === document!.program)!.steps.length;
-  });
-const yaw = (page: Page): Promise<number> =>
-  page.evaluate(() => window.twincellScene!.scene.getObjectByName("standing-place")!.rotation.y);
-
-describe.each([
-  { rows: "X-37 T-48", device: VIVE, stick: "touchpad" },
-  { rows: "T-48", device: INDEX, stick: "thumbstick" },
-  { rows: "T-48", device: PICO, stick: "thumbstick" },
-] as const)("$rows an emulated $device.name", ({ device, stick }) => {
-  test(`enters, takes the tool without moving it, carries it to 0.1 mm, records, turns with its ${stick}`, async () => {
-    const { page, problems } = await studio.open({ headset: device, width: 960, height: 480, script: HANDS_ONLY });
-    await drawn(page);
-    await stand(page);
-    const person = new Person(page);
-    await person.enter(320, 200);
-    const profiles = await page.evaluate(() =>
-      [...window.twincellScene!.gl.xr.getSession()!.inputSources].map(source => source.profiles[0]),
-    );
-    expect(profiles).toEqual([device.profile, device.profile]);
-    expect(await page.evaluate(() => window.twincellScene!.gl.xr.getSession()!.frameRate)).toBeGreaterThanOrEqual(90);
-    const start = await person.tcp();
-    await person.reach("right", start);
-    await person.squeeze("right", 1);
-    expect(distance(await person.tcp(), start)).toBeLessThan(0.001);
-    await person.carry("right", WAY);
-    const went = await person.tcp();
-    for (const [k, wanted_m] of WAY.entries()) expect(Math.abs(went[k]! - start[k]! - wanted_m)).toBeLessThan(0.0001);
-    await person.squeeze("right", 0);
-    await person.press("right", "record");
-    expect(await steps(page)).toBe(1);
-
-    const before = await yaw(page);
-    if (stick === "touchpad") await person.button("right", "touchpad", 1);
-    await page.evaluate(which => {
-      window.xrDevice.controllers.right!.updateAxes(which, 1, 0);
-    }, stick);
-    await person.frames(4);
-    const turned = (await yaw(page)) - before;
-    expect(Math.abs(Math.atan2(Math.sin(turned), Math.cos(turned)))).toBeCloseTo(Math.PI / 6, 5);
-    expect(problems).toEqual([]);
-  });
-});
-
-test("T-48 an emulated Vision Pro: eyes choose and a pinch presses, takes the tool without moving it and carries it with the hand", async () => {
-  const { page, problems } = await studio.open({ headset: VISION, width: 960, height: 480, script: HANDS_ONLY });
-  await drawn(page);
-  await stand(page);
-  const person = new Person(page);
-  await person.enter(320, 200, 0);
-  const pinch = async (closed: boolean): Promise<void> => {
-    await page.evaluate(on => {
-      const { right } = window.xrDevice.controllers;
-      if (on) right!.connected = true;
-      right!.updateButtonValue("trigger", on ? 1 : 0);
-    }, closed);
-    await person.frames(3);
-    if (closed) await person.frames(5);
-    else
-      await page.evaluate(() => {
-        window.xrDevice.controllers.right!.connected = false;
-      });
-    await person.frames(3);
-  };
-  // The plate stands beside the person, for there is no hand that could wear it.
-  await person.pointAt("right", await person.key("record"));
-  await pinch(true);
-  await pinch(false);
-  await expect.poll(() => steps(page)).toBe(1);
-
-  const start = await person.tcp();
-  const at = await person.inRoom(start);
-  const { x, y, z } = await page.evaluate(() => {
-    const { position } = window.xrDevice;
-    return { x: position.x, y: position.y, z: position.z };
-  });
-  const back = [x - at[0], y - at[1], z - at[2]];
-  const away = Math.hypot(...back);
-  await person.pointAt("right", { at, normal: back.map(value => value / away) as Vector3 });
-  await pinch(true);
-  expect(distance(await person.tcp(), start)).toBeLessThan(0.001);
-  await person.carry("right", WAY);
-  const went = await person.tcp();
-  for (const [k, wanted_m] of WAY.entries()) expect(Math.abs(went[k]! - start[k]! - wanted_m)).toBeLessThan(0.0001);
-  await pinch(false);
-  const left = await person.tcp();
-  await person.shift("right", [0, 0.1, 0]);
-  expect(await person.tcp(), "an open hand carries nothing").toEqual(left);
-  expect(problems).toEqual([]);
-});
-
 /** 1080 × 1200 for each eye; 110° across, as the Vive has it. */
 const EYE = { width: 1080, height: 1200 } as const;
 const ACROSS_RAD = (110 * Math.PI) / 180;
@@ -183,23 +83,13 @@ test(
     });
     await person.frames(60);
     const rounds: (readonly number[])[] = [];
-    await page.evaluate(() => {
-      window.twincellScene!.meter.reset();
-    });
     for (let i = 0; i < 4; i++) rounds.push((await cpuDuring(page, () => person.frames(60))).script_ms);
     expect(await page.evaluate(() => window.twincell.stores.playStore.getState().playing)).toBe(true);
     expect(await page.evaluate(() => window.twincell.stores.watchStore.getState().took_ms)).toBeGreaterThan(0);
-    console.log(
-      JSON.stringify(await page.evaluate(() => window.twincellScene!.meter.summary())),
-      rounds
-        .map(x => [quantile(x, 0.5), quantile(x, 0.95), quantile(x, 1)].map(v => v.toFixed(2)).join(" "))
-        .join(" | "),
-    );
     const least = (part: number): number => Math.min(...rounds.map(script_ms => quantile(script_ms, part)));
-    const [median_ms, p95_ms] = [least(0.5), least(0.95)];
-    console.log(`script of a frame: median ${median_ms.toFixed(2)} ms, p95 ${p95_ms.toFixed(2)} ms`);
     expect(rounds.flat().length).toBeGreaterThan(150);
-    expect(p95_ms).toBeLessThanOrEqual(BUDGET_MS);
+    expect(least(0.5)).toBeLessThanOrEqual(BUDGET_MS / 2);
+    expect(least(0.95)).toBeLessThanOrEqual(BUDGET_MS);
     expect(problems).toEqual([]);
   },
 );

@@ -20,31 +20,13 @@ interface Profile {
 /** A headset that is emulated here: rates as its maker publishes them, controllers as the W3C registry has them. */
 export interface EmulatedDevice {
   readonly name: string;
-  /** Of the W3C registry of input profiles; null: no controllers, a pinch with the ray of the eyes. */
-  readonly profile: string | null;
+  /** Of the W3C registry of input profiles. */
+  readonly profile: string;
   readonly frameRates: readonly number[];
   readonly features: readonly string[];
 }
 const FLOOR = ["viewer", "local", "local-floor", "bounded-floor"];
 export const VIVE: EmulatedDevice = { name: "HTC Vive", profile: "htc-vive", frameRates: [90], features: FLOOR };
-export const INDEX: EmulatedDevice = {
-  name: "Valve Index",
-  profile: "valve-index",
-  frameRates: [80, 90, 120, 144],
-  features: FLOOR,
-};
-export const PICO: EmulatedDevice = {
-  name: "Pico 4",
-  profile: "pico-4",
-  frameRates: [72, 90],
-  features: [...FLOOR, "hand-tracking"],
-};
-export const VISION: EmulatedDevice = {
-  name: "Apple Vision Pro",
-  profile: null,
-  frameRates: [90],
-  features: ["viewer", "local", "local-floor", "unbounded"],
-};
 
 /** Names by which the emulator, and `Person`, press the parts of every controller. */
 const NAMES: Readonly<Record<string, string>> = {
@@ -81,30 +63,11 @@ function controllersOf(profile: string): unknown {
   });
   return { profileId, fallbackProfileIds, layout: { left: layout("left"), right: layout("right") } };
 }
-/** Of a pinch: one button, present only while the fingers are closed. */
-const PINCH = {
-  profileId: "generic-hand-select",
-  fallbackProfileIds: ["generic-button"],
-  layout: Object.fromEntries(
-    ["left", "right"].map(hand => [
-      hand,
-      {
-        gamepad: {
-          mapping: "xr-standard",
-          buttons: [{ id: "trigger", type: "analog", eventTrigger: "select" }],
-          axes: [],
-        },
-        numHapticActuators: 0,
-      },
-    ]),
-  ),
-};
-
 /** Script that makes `window.xrDevice` that device, before the page starts. */
 export function deviceScript({ name, profile, frameRates, features }: EmulatedDevice): string {
   const config = {
     name,
-    controllerConfig: profile === null ? PINCH : controllersOf(profile),
+    controllerConfig: controllersOf(profile),
     supportedSessionModes: ["inline", "immersive-vr"],
     supportedFeatures: features,
     supportedFrameRates: frameRates,
@@ -114,10 +77,5 @@ export function deviceScript({ name, profile, frameRates, features }: EmulatedDe
     interactionMode: "world-space",
     userAgent: "Mozilla/5.0",
   };
-  // The emulator has no pinch that comes and goes: a controller that is there only while it is pressed stands for it.
-  const pinching =
-    profile === null
-      ? `for(const hand of ["left","right"]){const c=window.xrDevice.controllers[hand];Object.defineProperty(c.inputSource,"targetRayMode",{value:"transient-pointer"});c.connected=false;}`
-      : "";
-  return `window.makeDevice=()=>new IWER.XRDevice(${JSON.stringify(config)});window.afterDevice=()=>{${pinching}};`;
+  return `window.makeDevice=()=>new IWER.XRDevice(${JSON.stringify(config)});`;
 }

@@ -125,7 +125,7 @@ export class Studio {
       const made = own ? "window.makeDevice()" : `new IWER.XRDevice(IWER.${headset === true ? "metaQuest3" : headset})`;
       if (own) await page.addInitScript({ content: deviceScript(headset) });
       await page.addInitScript({
-        content: `{const d=${made};d.stereoEnabled=${options.bothEyes === true};d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;window.afterDevice?.();
+        content: `{const d=${made};d.stereoEnabled=${options.bothEyes === true};d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;
         // The emulator shows the page's own canvas in its own frame: let the picture fill it.
         addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}`,
       });

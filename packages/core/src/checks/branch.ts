@@ -1,6 +1,6 @@
 import { branchOf, sameBranch, type Branch } from "../kinematics/branch.ts";
 import type { Lost } from "../trajectory/continuity/index.ts";
-import { blends } from "../trajectory/moves.ts";
+import { blends, type Move } from "../trajectory/moves.ts";
 import { isSlide, jointText } from "../model/slide.ts";
 import { LIMIT_SLACK_RAD } from "../trajectory/run.ts";
 import { radians } from "../spatial/units.ts";
@@ -25,33 +25,10 @@ export function checkBranch(scene: CheckScene): void {
     const move = scene.layout.moves.get(segment.step);
     const rows = segment.times_s.length;
     if (move === undefined) continue;
-    const first = segment.q_rad.subarray(0, n);
     const last = segment.q_rad.subarray((rows - 1) * n);
     const at_s = segment.start_s + segment.duration_s;
-    let joint = 0;
-    for (let j = 1; j < n; j++) if (Math.abs(last[j]! - first[j]!) > Math.abs(last[joint]! - first[joint]!)) joint = j;
     if (move.step.path === "ptp") {
-      const way = Math.abs(last[joint]! - first[joint]!);
-      const before = branchOf(scene.robot, first);
-      const after = branchOf(scene.robot, last);
-      if (
-        move.q_rad === undefined &&
-        way > BIG_TURN_RAD &&
-        before !== undefined &&
-        after !== undefined &&
-        !sameBranch(before, after)
-      ) {
-        scene.add(segment.step, "warn", {
-          code: "branch.turn-over",
-          joint: joint + 1,
-          value: way,
-          limit: BIG_TURN_RAD,
-          unit: "rad",
-          at_s,
-          sentence: `Joint ${joint + 1} turns by ${deg(way)} while the arm changes from ${words(before)} to ${words(after)}.`,
-          repairs: configurationRepairs(scene, move),
-        });
-      }
+      if (move.q_rad === undefined) checkTurnOver(scene, move, segment.q_rad.subarray(0, n), last, at_s);
       continue;
     }
     // A straight or circular path keeps its posture; where it blends on, the end is not the taught point.
@@ -59,8 +36,7 @@ export function checkBranch(scene: CheckScene): void {
     const taught = move.q_rad;
     const arrived = branchOf(scene.robot, last);
     if (taught !== undefined) {
-      let off = 0;
-      for (let j = 1; j < n; j++) if (Math.abs(last[j]! - taught[j]!) > Math.abs(last[off]! - taught[off]!)) off = j;
+      const off = farthestJoint(taught, last);
       if (Math.abs(last[off]! - taught[off]!) > SAME_RAD) {
         scene.add(segment.step, "bad", {
           code: "branch.other",
@@ -85,6 +61,33 @@ export function checkBranch(scene: CheckScene): void {
       });
     }
   }
+}
+
+/** The joint, from 0, whose values in two postures differ most. */
+function farthestJoint(from: ArrayLike<number>, to: ArrayLike<number>): number {
+  let farthest = 0;
+  for (let j = 1; j < to.length; j++)
+    if (Math.abs(to[j]! - from[j]!) > Math.abs(to[farthest]! - from[farthest]!)) farthest = j;
+  return farthest;
+}
+
+/** A joint move to a pose that turns one joint far while the arm changes its configuration. */
+function checkTurnOver(scene: CheckScene, move: Move, first: Float64Array, last: Float64Array, at_s: number): void {
+  const joint = farthestJoint(first, last);
+  const turn_rad = Math.abs(last[joint]! - first[joint]!);
+  const before = branchOf(scene.robot, first);
+  const after = branchOf(scene.robot, last);
+  if (turn_rad <= BIG_TURN_RAD || before === undefined || after === undefined || sameBranch(before, after)) return;
+  scene.add(move.step.id, "warn", {
+    code: "branch.turn-over",
+    joint: joint + 1,
+    value: turn_rad,
+    limit: BIG_TURN_RAD,
+    unit: "rad",
+    at_s,
+    sentence: `Joint ${joint + 1} turns by ${deg(turn_rad)} while the arm changes from ${words(before)} to ${words(after)}.`,
+    repairs: configurationRepairs(scene, move),
+  });
 }
 
 /**

@@ -65,6 +65,9 @@ export interface Checked {
   readonly corners?: readonly CornerArea[];
 }
 
+/** What is found of collisions without a cell. */
+const NOT_LOOKED_AT: Collisions = { clearance_m: null, unproven: new Set(), taken: 0, missed: 0, carried: [] };
+
 /** The part of the work that laying out is when a cell is checked as well. */
 const LAYOUT_SHARE = 0.4;
 
@@ -74,88 +77,53 @@ const LAYOUT_SHARE = 0.4;
  * joint limits where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
  */
 export function checkProgram(program: Program, robot: Robot, options: CheckOptions = {}): Checked {
-  const { cell, onProgress, cancelled } = options;
+  const { cell, onProgress, cancelled, margin_m = 0 } = options;
   const worldFromBase = options.worldFromBase ?? cell?.worldFromBase;
   const layoutShare = cell === undefined ? 1 : LAYOUT_SHARE;
   const layout = layOutProgram(program, robot, {
-    ...(worldFromBase === undefined ? {} : { worldFromBase }),
-    ...(options.start_rad === undefined ? {} : { start_rad: options.start_rad }),
-    ...(onProgress === undefined
-      ? {}
-      : {
-          onProgress: (share: number) => {
-            onProgress(share * layoutShare);
-          },
-        }),
-    ...(cancelled === undefined ? {} : { cancelled }),
+    worldFromBase,
+    start_rad: options.start_rad,
+    onProgress: progressBetween(onProgress, 0, layoutShare),
+    cancelled,
   });
   const book = new FindingCollector(program);
   const scene: CheckScene = {
     program,
     robot,
     layout,
-    context: {
-      tools: program.tools,
-      frames: program.frames,
-      ...(worldFromBase === undefined ? {} : { worldFromBase }),
-    },
+    context: { tools: program.tools, frames: program.frames, worldFromBase },
     add: (id, severity, finding) => {
       book.add(id, severity, finding, layout.turns.get(id));
     },
   };
-  checkReach(scene);
-  checkWorkspace(scene);
-  checkLimits(scene);
-  checkSpeed(scene);
-  checkBranch(scene);
-  checkImpasses(scene);
-  checkSingular(scene);
-  checkSignals(scene);
+  checkMotions(scene);
   const unweighed = checkPayload(scene);
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
-  if (cell !== undefined) checkEdges(scene, cell);
-  const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
-  const margin_m = options.margin_m ?? 0;
+  const unjudged = checkPlacing(scene, cell, options.payload);
   const certificates: SegmentCertificate[] | undefined =
     options.certify === true && cell !== undefined ? [] : undefined;
   const cornerProofs: CornerCertificate[] = [];
   const areas: CornerArea[] | undefined = options.cornerAreas === true && cell !== undefined ? [] : undefined;
-  const collision =
-    cell === undefined
-      ? undefined
-      : checkCollision(scene, {
-          cell,
-          margin_m,
-          ...(certificates === undefined ? {} : { certificates, corners: cornerProofs }),
-          ...(areas === undefined ? {} : { areas }),
-          ...(onProgress === undefined
-            ? {}
-            : {
-                onProgress: (share: number) => {
-                  onProgress(layoutShare + share * (1 - layoutShare));
-                },
-              }),
-          ...(cancelled === undefined ? {} : { cancelled }),
-        });
-  if (cell !== undefined) checkCarriedLoad(scene, cell, collision?.carried ?? []);
+  const proofs = { certificates, corners: certificates && cornerProofs, areas };
+  const told = { onProgress: progressBetween(onProgress, layoutShare, 1), cancelled };
+  const collision = cell === undefined ? NOT_LOOKED_AT : checkCollision(scene, { cell, margin_m, ...proofs, ...told });
+  if (cell !== undefined) checkCarriedLoad(scene, cell, collision.carried);
   onProgress?.(1);
-  const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
+  const unproven = new Set(Array.from(collision.unproven, id => writtenId(layout, id)));
   const written = [...everyStep(program)];
-  const steps = written.map(step => {
-    const evaluated =
-      (layout.complete || layout.evaluated.has(step.id)) &&
-      !unproven.has(step.id) &&
-      !layout.unjudged.has(step.id) &&
-      !unweighed.has(step.id);
-    return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
-  });
+  const evaluated = (id: string): boolean =>
+    (layout.complete || layout.evaluated.has(id)) &&
+    !unproven.has(id) &&
+    !layout.unjudged.has(id) &&
+    !unweighed.has(id);
+  const steps = written.map(({ id }) => ({ id, verdict: book.verdictOf(id, evaluated(id)), findings: book.of(id) }));
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");
   const verdict: Verdict = {
     ok,
     steps,
     duration_s: layout.plan.duration_s,
-    clearance_m: collision?.clearance_m ?? null,
+    clearance_m: collision.clearance_m,
     torque,
     assumptions: [
       ...robot.assumptions,
@@ -163,16 +131,13 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
       ...assumed(written, layout),
       ...unjudged,
       ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
-      cell === undefined
-        ? "Collisions were not looked at: no cell was given."
-        : "Objects stand where the cell draws them.",
-      ...(cell === undefined || cell.objects.length === 0 ? [] : [keptSentence(cell, margin_m)]),
-      ...(collision === undefined ? [] : carried(program, written, collision)),
+      ...cellAssumptions(cell, margin_m),
+      ...(cell === undefined ? [] : carried(program, written, collision)),
     ],
   };
   const plan = asWritten(layout);
   const bad = book.bad();
-  const parts = collision?.carried ?? [];
+  const parts = collision.carried;
   const checked: Checked =
     areas === undefined
       ? { verdict, bad, plan, carried: parts }
@@ -192,6 +157,44 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
       corners: cornerProofs.map(byWrittenId),
     },
   };
+}
+
+/** How the objects of a cell stand; what of it could not be judged is returned as assumptions. */
+function checkPlacing(
+  scene: CheckScene,
+  cell: CellGeometry | undefined,
+  payload: Payload | undefined,
+): readonly string[] {
+  if (cell === undefined) return [];
+  checkEdges(scene, cell);
+  return checkStand(scene, cell, payload?.mass_kg);
+}
+
+/** Everything that is judged from the motions alone. */
+function checkMotions(scene: CheckScene): void {
+  checkReach(scene);
+  checkWorkspace(scene);
+  checkLimits(scene);
+  checkSpeed(scene);
+  checkBranch(scene);
+  checkImpasses(scene);
+  checkSingular(scene);
+  checkSignals(scene);
+}
+
+/** The progress 0 … 1 of a part of the work, told as `from` … `to` of the whole. */
+function progressBetween(onProgress: CheckOptions["onProgress"], from: number, to: number): CheckOptions["onProgress"] {
+  if (onProgress === undefined) return undefined;
+  return share => {
+    onProgress(from + share * (to - from));
+  };
+}
+
+/** What is taken for true of what stands around the robot. */
+function cellAssumptions(cell: CellGeometry | undefined, margin_m: number): string[] {
+  if (cell === undefined) return ["Collisions were not looked at: no cell was given."];
+  const placed = "Objects stand where the cell draws them.";
+  return cell.objects.length === 0 ? [placed] : [placed, keptSentence(cell, margin_m)];
 }
 
 /** What is taken for true of the parts that are gripped. */

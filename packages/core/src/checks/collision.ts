@@ -23,13 +23,13 @@ export interface CollisionOptions {
   /** Distance the robot keeps from the cell and its own parts from each other, as `marginOf` says [m]. */
   readonly margin_m: number;
   /** Receives the proof of every motion that is clear. */
-  readonly certificates?: SegmentCertificate[];
+  readonly certificates?: SegmentCertificate[] | undefined;
   /** Receives the proof of every corner that is clear whatever curve a controller takes in it. */
-  readonly corners?: CornerCertificate[];
+  readonly corners?: CornerCertificate[] | undefined;
   /** Receives the area of every corner, clear or not. */
-  readonly areas?: CornerArea[];
-  readonly onProgress?: (share: number) => void;
-  readonly cancelled?: () => boolean;
+  readonly areas?: CornerArea[] | undefined;
+  readonly onProgress?: ((share: number) => void) | undefined;
+  readonly cancelled?: (() => boolean) | undefined;
 }
 
 /** Heights a target is raised by to get clear [m]. */
@@ -76,17 +76,9 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     if (segment !== all[i]) continue;
     const corner = corners.get(segment);
     if (corner !== undefined) {
-      const sides = [before.at(-1), stretches[0]] as const;
-      const judged = judgeCorner(corner, prover, ...sides);
-      const { step, at_s } = corner;
+      const judged = proveCorner(corner, prover, [before.at(-1), stretches[0]], options);
       if (judged.found !== undefined) rounded.push({ corner, found: judged.found, held: parts.held });
       else if (judged.isUnproven) unreached.push(corner);
-      else {
-        const pieces = options.corners && certifyCorner(corner, judged, prover, ...sides);
-        if (pieces !== undefined) options.corners?.push({ step, at_s, pieces });
-      }
-      const area = options.areas && cornerArea(corner);
-      if (area !== undefined) options.areas?.push(area);
     }
     before = stretches;
     if (options.cancelled?.() === true) {
@@ -95,30 +87,13 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     }
     options.onProgress?.(i / all.length);
     i++;
-    const { verdict, certificate } =
-      options.certificates === undefined
-        ? { verdict: prover.prove(segment, stretches), certificate: null }
-        : prover.certify(segment, stretches);
-    if (certificate !== null)
-      options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
+    const verdict = prove(prover, segment, stretches, options.certificates);
     if (verdict.kind === "undecided") unproven.add(segment.step);
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
-    const at_s = segment.start_s + verdict.at;
-    const sentence = sentenceOf(verdict, cell, parts.held, at_s, margin_m);
-    const move = scene.layout.moves.get(segment.step);
-    const repairs =
-      move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
+    const sentence = sentenceOf(verdict, cell, parts.held, segment.start_s + verdict.at, margin_m);
+    addContact(scene, segment, verdict, sentence, repaired < MOST_REPAIRED ? prover : undefined);
     repaired++;
-    scene.add(segment.step, "bad", {
-      code: "collision.contact",
-      value: verdict.distance_m,
-      limit: verdict.margin_m,
-      unit: "m",
-      at_s,
-      sentence,
-      repairs,
-    });
   }
   for (const { corner, found: inCorner, held } of rounded)
     if (!found.has(corner.step) && !found.has(corner.next))
@@ -143,6 +118,57 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
 }
 
 type Contact = Extract<MotionVerdict, { kind: "contact" }>;
+
+/** The verdict on one corner; its area and, when it is clear, its proof go to where the options want them. */
+function proveCorner(
+  corner: PassedCorner,
+  prover: Prover,
+  sides: readonly [Stretch | undefined, Stretch | undefined],
+  { corners, areas }: CollisionOptions,
+): ReturnType<typeof judgeCorner> {
+  const judged = judgeCorner(corner, prover, ...sides);
+  const { step, at_s } = corner;
+  if (corners !== undefined && judged.found === undefined && !judged.isUnproven) {
+    const pieces = certifyCorner(corner, judged, prover, ...sides);
+    if (pieces !== undefined) corners.push({ step, at_s, pieces });
+  }
+  const area = areas && cornerArea(corner);
+  if (area !== undefined) areas?.push(area);
+  return judged;
+}
+
+/** The verdict on one motion; the proof of a clear one goes to `certificates`, where these are wanted. */
+function prove(
+  prover: Prover,
+  segment: MotionSegment,
+  stretches: readonly Stretch[],
+  certificates: SegmentCertificate[] | undefined,
+): MotionVerdict {
+  if (certificates === undefined) return prover.prove(segment, stretches);
+  const { verdict, certificate } = prover.certify(segment, stretches);
+  if (certificate !== null) certificates.push({ step: segment.step, start_s: segment.start_s, ...certificate });
+  return verdict;
+}
+
+/** A motion that touches something or comes too near; with a prover, with ways out that it proves to be free. */
+function addContact(
+  scene: CheckScene,
+  segment: MotionSegment,
+  contact: Contact,
+  sentence: string,
+  prover: Prover | undefined,
+): void {
+  const move = scene.layout.moves.get(segment.step);
+  scene.add(segment.step, "bad", {
+    code: "collision.contact",
+    value: contact.distance_m,
+    limit: contact.margin_m,
+    unit: "m",
+    at_s: segment.start_s + contact.at,
+    sentence,
+    repairs: move === undefined || !prover ? [] : collisionRepairs(scene, move, prover, segment, contact.at),
+  });
+}
 
 /** What a corner may come too near to, where neither the motion before it nor the one behind does as planned. */
 function addCorner(

@@ -50,51 +50,49 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
         replace: withTarget(move.step, { ...withoutBranch(target), branch: other }),
       });
   }
-  tilt: for (const angle of TILTS_DEG) {
-    for (const [name, axis] of [
-      ["x", [1, 0, 0]],
-      ["y", [0, 1, 0]],
-    ] as const) {
-      for (const sign of [1, -1])
-        if (
-          offer(
-            turnTool(base, [...axis], radians(sign * angle)),
-            "tilt",
-            `Tilt the tool by ${sign * angle}° about its ${name} axis.`,
-          )
-        )
-          break tilt;
-    }
-  }
-  spin: for (const angle of SPINS_DEG)
-    for (const sign of [1, -1])
-      if (
-        offer(
-          turnTool(base, [0, 0, 1], radians(sign * angle)),
-          "spin",
-          `Turn the tool by ${sign * angle}° about its own axis.`,
-        )
-      )
-        break spin;
+  offerTurns(base, offer);
   // A shift by what is missing first, rounded up to whole millimetres.
-  const missing =
-    reach?.kind === "too-far"
-      ? reach.beyond_m
-      : reach?.kind === "too-near"
-        ? reach.inside_m
-        : reach?.kind === "beyond-workspace"
-          ? reach.distance_m - reach.declared_m
-          : 0;
-  const shifts = SHIFTS_M.map(shift => Math.ceil((missing + shift) * 1000) / 1000);
-  for (const shift of shifts)
-    if (offer(towardsBase(base, shift), "target", `Move the target ${Math.round(shift * 1000)} mm towards the robot.`))
-      break;
-  for (const shift of shifts)
-    if (
-      offer(towardsBase(base, -shift), "target", `Move the target ${Math.round(shift * 1000)} mm away from the robot.`)
-    )
-      break;
+  const shifts = SHIFTS_M.map(shift => Math.ceil((missingOf(reach) + shift) * 1000) / 1000);
+  const millimetres = (shift_m: number): string => `${Math.round(shift_m * 1000)} mm`;
+  shifts.some(shift =>
+    offer(towardsBase(base, shift), "target", `Move the target ${millimetres(shift)} towards the robot.`),
+  );
+  shifts.some(shift =>
+    offer(towardsBase(base, -shift), "target", `Move the target ${millimetres(shift)} away from the robot.`),
+  );
   return found.slice(0, MOST_REPAIRS);
+}
+
+/** Takes a pose as a repair when it can be reached, and says whether it can. */
+type Offer = (baseFromTcp: Pose<"base", "tcp">, kind: RepairKind, sentence: string) => boolean;
+
+/** The least tilt of the tool about its x or y axis, and the least turn about its own axis, that can be reached. */
+function offerTurns(base: Pose<"base", "tcp">, offer: Offer): void {
+  const both = (angles_deg: readonly number[]): number[] => angles_deg.flatMap(angle => [angle, -angle]);
+  const tilt = (name: string, axis: Vector3, angle: number): boolean =>
+    offer(turnTool(base, axis, radians(angle)), "tilt", `Tilt the tool by ${angle}° about its ${name} axis.`);
+  TILTS_DEG.some(
+    angle =>
+      both([angle]).some(signed => tilt("x", [1, 0, 0], signed)) ||
+      both([angle]).some(signed => tilt("y", [0, 1, 0], signed)),
+  );
+  both(SPINS_DEG).some(angle =>
+    offer(turnTool(base, [0, 0, 1], radians(angle)), "spin", `Turn the tool by ${angle}° about its own axis.`),
+  );
+}
+
+/** How far the target is outside what the arm reaches [m]; 0 where distance is not the reason. */
+function missingOf(reach: Reach | undefined): number {
+  switch (reach?.kind) {
+    case "too-far":
+      return reach.beyond_m;
+    case "too-near":
+      return reach.inside_m;
+    case "beyond-workspace":
+      return reach.distance_m - reach.declared_m;
+    default:
+      return 0;
+  }
 }
 
 /** The same pose in other postures, as joint moves to them. */

@@ -129,15 +129,7 @@ export class ClearanceMaps {
     c1: number,
   ): boolean {
     const n = map.joints.length;
-    const low = this.#low;
-    const high = this.#high;
-    if (
-      high[0]! < a0 ||
-      low[0]! > a1 ||
-      (n > 1 && (high[1]! < b0 || low[1]! > b1)) ||
-      (n > 2 && (high[2]! < c0 || low[2]! > c1))
-    )
-      return true;
+    if (this.#outside(n, a0, a1, b0, b1, c0, c1)) return true;
     const state = map.state[node]!;
     if (state === CLEAR) return true;
     if (state === OPEN) return false;
@@ -168,6 +160,18 @@ export class ClearanceMaps {
     const m = (c0 + c1) / 2;
     return (
       this.#covered(pair, map, left, a0, a1, b0, b1, c0, m) && this.#covered(pair, map, left + 1, a0, a1, b0, b1, m, c1)
+    );
+  }
+
+  /** Whether the asked box, of n joints, does not overlap the node's box at all. */
+  #outside(n: number, a0: number, a1: number, b0: number, b1: number, c0: number, c1: number): boolean {
+    const low = this.#low;
+    const high = this.#high;
+    return (
+      high[0]! < a0 ||
+      low[0]! > a1 ||
+      (n > 1 && (high[1]! < b0 || low[1]! > b1)) ||
+      (n > 2 && (high[2]! < c0 || low[2]! > c1))
     );
   }
 

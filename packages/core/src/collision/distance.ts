@@ -3,6 +3,14 @@ import { makeRoom, size, type PairScratch } from "./intersect.ts";
 import { movePoints, type Rigid } from "./relative.ts";
 import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
 
+/** Kept between the steps of one search: the least squared distance so far [m²]. */
+const LEAST = new Float64Array(1);
+/** Kept between the steps of one search: the pair of nodes looked at, and how much the stack holds. */
+const PAIR = new Int32Array(3);
+const NODE_A = 0;
+const NODE_B = 1;
+const TOP = 2;
+
 /**
  * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
  *
@@ -26,76 +34,89 @@ export function surfaceDistance(
 ): number {
   if (a.source.length === 0 || b.source.length === 0) return Infinity;
   makeRoom(scratch, a, b);
-  const stack = scratch.stack;
-  const bounds = scratch.bounds;
-  const witness = scratch.witness;
   const linksA = a.links;
   const linksB = b.links;
   const enough = enough_m * enough_m;
-  let best = cutoff_m * cutoff_m;
-  let found = false;
-  if (witness[0]! >= 0 && witness[0]! < a.source.length && witness[1]! >= 0 && witness[1]! < b.source.length) {
-    movePoints(aFromB, b.corners, 9 * witness[1]!, 3, scratch.triangles, 0);
-    const seed = triangleDistance2(a.corners, 9 * witness[0]!, scratch.triangles, 0, best, out);
-    if (seed < best) {
-      best = seed;
-      found = true;
-    }
-  }
-  if ((found && best < enough) || boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best)
-    return found ? Math.sqrt(best) : Infinity;
-  let nodeA = 0;
-  let nodeB = 0;
-  let top = 0;
-  for (;;) {
+  const cutoff = cutoff_m * cutoff_m;
+  LEAST[0] = cutoff;
+  tryWitness(a, b, aFromB, scratch, out);
+  if (LEAST[0] < cutoff && LEAST[0] < enough) return Math.sqrt(LEAST[0]);
+  PAIR[NODE_A] = 0;
+  PAIR[NODE_B] = 0;
+  PAIR[TOP] = 0;
+  let goesOn = boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) < LEAST[0];
+  while (goesOn) {
+    const nodeA = PAIR[NODE_A]!;
+    const nodeB = PAIR[NODE_B]!;
     const countA = linksA[2 * nodeA + 1]!;
     const countB = linksB[2 * nodeB + 1]!;
     if (countA > 0 && countB > 0) {
-      const near = nearestInLeaves(
-        a,
-        linksA[2 * nodeA]!,
-        countA,
-        b,
-        linksB[2 * nodeB]!,
-        countB,
-        aFromB,
-        best,
-        scratch,
-        out,
-      );
-      if (near < best) {
-        best = near;
-        found = true;
-      }
-    } else {
-      const openA = countB > 0 || (countA === 0 && size(a.boxes, 6 * nodeA) >= size(b.boxes, 6 * nodeB));
-      const first = openA ? nodeA + 1 : nodeB + 1;
-      const second = openA ? linksA[2 * nodeA]! : linksB[2 * nodeB]!;
-      const toFirst = openA
-        ? boxDistance2(a.boxes, 6 * first, b.boxes, 6 * nodeB, aFromB)
-        : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * first, aFromB);
-      const toSecond = openA
-        ? boxDistance2(a.boxes, 6 * second, b.boxes, 6 * nodeB, aFromB)
-        : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * second, aFromB);
-      const near = toFirst <= toSecond ? first : second;
-      const far = toFirst <= toSecond ? second : first;
-      if (Math.max(toFirst, toSecond) < best) {
-        bounds[top >> 1] = Math.max(toFirst, toSecond);
-        stack[top++] = openA ? far : nodeA;
-        stack[top++] = openA ? nodeB : far;
-      }
-      if (Math.min(toFirst, toSecond) < best) {
-        if (openA) nodeA = near;
-        else nodeB = near;
-        continue;
-      }
-    }
-    do {
-      if (top === 0 || best === 0 || (found && best < enough)) return found ? Math.sqrt(best) : Infinity;
-      nodeB = stack[--top]!;
-      nodeA = stack[--top]!;
-    } while (bounds[top >> 1]! >= best);
+      const fromA = linksA[2 * nodeA]!;
+      const fromB = linksB[2 * nodeB]!;
+      const near = nearestInLeaves(a, fromA, countA, b, fromB, countB, aFromB, LEAST[0], scratch, out);
+      if (near < LEAST[0]) LEAST[0] = near;
+    } else if (openPair(a, b, aFromB, countA, countB, scratch)) continue;
+    goesOn = LEAST[0] > 0 && !(LEAST[0] < cutoff && LEAST[0] < enough) && takePair(scratch);
   }
+  return LEAST[0] < cutoff ? Math.sqrt(LEAST[0]) : Infinity;
+}
+
+/** Begins with the pair of triangles that `scratch.witness` names, where it names one. */
+function tryWitness(a: Bvh, b: Bvh, aFromB: Rigid, scratch: PairScratch, out: Float64Array): void {
+  const first = scratch.witness[0]!;
+  const second = scratch.witness[1]!;
+  if (first < 0 || first >= a.source.length || second < 0 || second >= b.source.length) return;
+  movePoints(aFromB, b.corners, 9 * second, 3, scratch.triangles, 0);
+  const seed = triangleDistance2(a.corners, 9 * first, scratch.triangles, 0, LEAST[0]!, out);
+  if (seed < LEAST[0]!) LEAST[0] = seed;
+}
+
+/**
+ * Opens the larger node of the pair: the farther of the two new pairs goes on the stack, the nearer one is next.
+ *
+ * @returns whether a new pair is near enough to be next.
+ */
+function openPair(a: Bvh, b: Bvh, aFromB: Rigid, countA: number, countB: number, scratch: PairScratch): boolean {
+  const nodeA = PAIR[NODE_A]!;
+  const nodeB = PAIR[NODE_B]!;
+  const best = LEAST[0]!;
+  const openA = countB > 0 || (countA === 0 && size(a.boxes, 6 * nodeA) >= size(b.boxes, 6 * nodeB));
+  const first = openA ? nodeA + 1 : nodeB + 1;
+  const second = openA ? a.links[2 * nodeA]! : b.links[2 * nodeB]!;
+  const toFirst = openA
+    ? boxDistance2(a.boxes, 6 * first, b.boxes, 6 * nodeB, aFromB)
+    : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * first, aFromB);
+  const toSecond = openA
+    ? boxDistance2(a.boxes, 6 * second, b.boxes, 6 * nodeB, aFromB)
+    : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * second, aFromB);
+  const near = toFirst <= toSecond ? first : second;
+  const far = toFirst <= toSecond ? second : first;
+  const farther = Math.max(toFirst, toSecond);
+  if (farther < best) {
+    const top = PAIR[TOP]!;
+    scratch.bounds[top >> 1] = farther;
+    scratch.stack[top] = openA ? far : nodeA;
+    scratch.stack[top + 1] = openA ? nodeB : far;
+    PAIR[TOP] = top + 2;
+  }
+  if (Math.min(toFirst, toSecond) >= best) return false;
+  PAIR[openA ? NODE_A : NODE_B] = near;
+  return true;
+}
+
+/** The next pair of nodes from the stack that may be nearer than the least distance; false when there is none. */
+function takePair({ stack, bounds }: PairScratch): boolean {
+  let top = PAIR[TOP]!;
+  while (top > 0) {
+    top -= 2;
+    if (bounds[top >> 1]! >= LEAST[0]!) continue;
+    PAIR[NODE_A] = stack[top]!;
+    PAIR[NODE_B] = stack[top + 1]!;
+    PAIR[TOP] = top;
+    return true;
+  }
+  PAIR[TOP] = 0;
+  return false;
 }
 
 /**

@@ -1,3 +1,18 @@
+/** Where corners, edges and normals of the two triangles begin in `CORNERS`; p0 is the origin. */
+const A = 0; // p1
+const B = 3; // p2
+const C = 6; // p1 to p2
+const D = 9; // q0
+const E = 12; // q1
+const F = 15; // q2
+const G = 18; // q0 to q1
+const H = 21; // q0 to q2
+const K = 24; // q1 to q2
+const N = 27; // normal of p
+const M = 30; // normal of q
+/** Kept between the steps of one call: indices are handed on, since numbers would be allocated. */
+const CORNERS = new Float64Array(33);
+
 /**
  * Whether two triangles, surface and border included, share a point. Separating axes: both normals, the nine products
  * of edges and, for triangles in one plane, the six in-plane normals of edges. Two triangles are apart exactly when
@@ -49,118 +64,77 @@ export function trianglesTouch(p: Float64Array, i: number, q: Float64Array, j: n
   const mb = mx * bx + my * by + mz * bz;
   if ((md < 0 && ma > md && mb > md) || (md > 0 && ma < md && mb < md)) return false;
 
-  const cx = bx - ax;
-  const cy = by - ay;
-  const cz = bz - az;
-  const kx = fx - ex;
-  const ky = fy - ey;
-  const kz = fz - ez;
-  // An axis across edge e of p and edge f of q sees p as (0, corner off e) and q as (corner on f, corner off f).
-  return !(
-    apart(ay * gz - az * gy, az * gx - ax * gz, ax * gy - ay * gx, bx, by, bz, dx, dy, dz, fx, fy, fz) ||
-    apart(ay * hz - az * hy, az * hx - ax * hz, ax * hy - ay * hx, bx, by, bz, dx, dy, dz, ex, ey, ez) ||
-    apart(ay * kz - az * ky, az * kx - ax * kz, ax * ky - ay * kx, bx, by, bz, ex, ey, ez, dx, dy, dz) ||
-    apart(by * gz - bz * gy, bz * gx - bx * gz, bx * gy - by * gx, ax, ay, az, dx, dy, dz, fx, fy, fz) ||
-    apart(by * hz - bz * hy, bz * hx - bx * hz, bx * hy - by * hx, ax, ay, az, dx, dy, dz, ex, ey, ez) ||
-    apart(by * kz - bz * ky, bz * kx - bx * kz, bx * ky - by * kx, ax, ay, az, ex, ey, ez, dx, dy, dz) ||
-    apart(cy * gz - cz * gy, cz * gx - cx * gz, cx * gy - cy * gx, ax, ay, az, dx, dy, dz, fx, fy, fz) ||
-    apart(cy * hz - cz * hy, cz * hx - cx * hz, cx * hy - cy * hx, ax, ay, az, dx, dy, dz, ex, ey, ez) ||
-    apart(cy * kz - cz * ky, cz * kx - cx * kz, cx * ky - cy * kx, ax, ay, az, ex, ey, ez, dx, dy, dz) ||
-    apart(ny * az - nz * ay, nz * ax - nx * az, nx * ay - ny * ax, bx, by, bz, dx, dy, dz, ex, ey, ez, fx, fy, fz) ||
-    apart(ny * bz - nz * by, nz * bx - nx * bz, nx * by - ny * bx, ax, ay, az, dx, dy, dz, ex, ey, ez, fx, fy, fz) ||
-    apart(ny * cz - nz * cy, nz * cx - nx * cz, nx * cy - ny * cx, ax, ay, az, dx, dy, dz, ex, ey, ez, fx, fy, fz) ||
-    apart(
-      my * gz - mz * gy,
-      mz * gx - mx * gz,
-      mx * gy - my * gx,
-      ax,
-      ay,
-      az,
-      dx,
-      dy,
-      dz,
-      fx,
-      fy,
-      fz,
-      dx,
-      dy,
-      dz,
-      bx,
-      by,
-      bz,
-    ) ||
-    apart(
-      my * hz - mz * hy,
-      mz * hx - mx * hz,
-      mx * hy - my * hx,
-      ax,
-      ay,
-      az,
-      dx,
-      dy,
-      dz,
-      ex,
-      ey,
-      ez,
-      dx,
-      dy,
-      dz,
-      bx,
-      by,
-      bz,
-    ) ||
-    apart(
-      my * kz - mz * ky,
-      mz * kx - mx * kz,
-      mx * ky - my * kx,
-      ax,
-      ay,
-      az,
-      ex,
-      ey,
-      ez,
-      dx,
-      dy,
-      dz,
-      ex,
-      ey,
-      ez,
-      bx,
-      by,
-      bz,
-    )
-  );
+  CORNERS[A] = ax;
+  CORNERS[A + 1] = ay;
+  CORNERS[A + 2] = az;
+  CORNERS[B] = bx;
+  CORNERS[B + 1] = by;
+  CORNERS[B + 2] = bz;
+  CORNERS[C] = bx - ax;
+  CORNERS[C + 1] = by - ay;
+  CORNERS[C + 2] = bz - az;
+  CORNERS[D] = dx;
+  CORNERS[D + 1] = dy;
+  CORNERS[D + 2] = dz;
+  CORNERS[E] = ex;
+  CORNERS[E + 1] = ey;
+  CORNERS[E + 2] = ez;
+  CORNERS[F] = fx;
+  CORNERS[F + 1] = fy;
+  CORNERS[F + 2] = fz;
+  CORNERS[G] = gx;
+  CORNERS[G + 1] = gy;
+  CORNERS[G + 2] = gz;
+  CORNERS[H] = hx;
+  CORNERS[H + 1] = hy;
+  CORNERS[H + 2] = hz;
+  CORNERS[K] = fx - ex;
+  CORNERS[K + 1] = fy - ey;
+  CORNERS[K + 2] = fz - ez;
+  CORNERS[N] = nx;
+  CORNERS[N + 1] = ny;
+  CORNERS[N + 2] = nz;
+  CORNERS[M] = mx;
+  CORNERS[M + 1] = my;
+  CORNERS[M + 2] = mz;
+  return !(edgesApart() || inPlaneApart());
 }
 
-/** Whether the axis separates {0, u, w} from {v1, v2, v3}; points not given repeat earlier ones. */
-function apart(
-  x: number,
-  y: number,
-  z: number,
-  ux: number,
-  uy: number,
-  uz: number,
-  v1x: number,
-  v1y: number,
-  v1z: number,
-  v2x: number,
-  v2y: number,
-  v2z: number,
-  v3x = v1x,
-  v3y = v1y,
-  v3z = v1z,
-  wx = ux,
-  wy = uy,
-  wz = uz,
-): boolean {
-  const u = x * ux + y * uy + z * uz;
-  const w = x * wx + y * wy + z * wz;
-  const v1 = x * v1x + y * v1y + z * v1z;
-  const v2 = x * v2x + y * v2y + z * v2z;
-  const v3 = x * v3x + y * v3y + z * v3z;
-  const pLow = u < w ? (u < 0 ? u : 0) : w < 0 ? w : 0;
-  const pHigh = u > w ? (u > 0 ? u : 0) : w > 0 ? w : 0;
-  const qLow = v1 < v2 ? (v1 < v3 ? v1 : v3) : v2 < v3 ? v2 : v3;
-  const qHigh = v1 > v2 ? (v1 > v3 ? v1 : v3) : v2 > v3 ? v2 : v3;
+/** Products of edges. An axis across edge e of p and edge f of q sees p as two values and q as two values. */
+const edgesApart = (): boolean =>
+  apart(A, G, B, B, D, F, D) ||
+  apart(A, H, B, B, D, E, D) ||
+  apart(A, K, B, B, E, D, E) ||
+  apart(B, G, A, A, D, F, D) ||
+  apart(B, H, A, A, D, E, D) ||
+  apart(B, K, A, A, E, D, E) ||
+  apart(C, G, A, A, D, F, D) ||
+  apart(C, H, A, A, D, E, D) ||
+  apart(C, K, A, A, E, D, E);
+
+/** Normals of edges in the plane of their triangle, for triangles in one plane. */
+const inPlaneApart = (): boolean =>
+  apart(N, A, B, B, D, E, F) ||
+  apart(N, B, A, A, D, E, F) ||
+  apart(N, C, B, B, D, E, F) ||
+  apart(M, G, A, B, D, F, D) ||
+  apart(M, H, A, B, D, E, D) ||
+  apart(M, K, A, B, E, D, E);
+
+/** Whether the axis first × second separates {0, u, w} from {v1, v2, v3}; all are places in `CORNERS`. */
+function apart(first: number, second: number, u: number, w: number, v1: number, v2: number, v3: number): boolean {
+  const t = CORNERS;
+  const x = t[first + 1]! * t[second + 2]! - t[first + 2]! * t[second + 1]!;
+  const y = t[first + 2]! * t[second]! - t[first]! * t[second + 2]!;
+  const z = t[first]! * t[second + 1]! - t[first + 1]! * t[second]!;
+  const pu = x * t[u]! + y * t[u + 1]! + z * t[u + 2]!;
+  const pw = x * t[w]! + y * t[w + 1]! + z * t[w + 2]!;
+  const q1 = x * t[v1]! + y * t[v1 + 1]! + z * t[v1 + 2]!;
+  const q2 = x * t[v2]! + y * t[v2 + 1]! + z * t[v2 + 2]!;
+  const q3 = x * t[v3]! + y * t[v3 + 1]! + z * t[v3 + 2]!;
+  const pLow = pu < pw ? (pu < 0 ? pu : 0) : pw < 0 ? pw : 0;
+  const pHigh = pu > pw ? (pu > 0 ? pu : 0) : pw > 0 ? pw : 0;
+  const qLow = q1 < q2 ? (q1 < q3 ? q1 : q3) : q2 < q3 ? q2 : q3;
+  const qHigh = q1 > q2 ? (q1 > q3 ? q1 : q3) : q2 > q3 ? q2 : q3;
   return qLow > pHigh || qHigh < pLow;
 }

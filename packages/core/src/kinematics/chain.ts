@@ -67,6 +67,7 @@ function layOutArm(arm: SerialArm, scratch: ArmScratch): Float64Array {
     { fixed: arm.lastJointFromFlange as Pose, axis: null, kind: NONE },
   ];
   const chain = new Float64Array(rows.length * STRIDE);
+  if (halves.length < 2 * rows.length) halves = new Float64Array(2 * rows.length);
   rows.forEach(({ fixed, axis, kind }, i) => {
     const { position, quaternion } = fixed;
     const turned = quaternion[0] !== 0 || quaternion[1] !== 0 || quaternion[2] !== 0 || quaternion[3] !== 1;
@@ -106,10 +107,39 @@ const C4 = -2.75573143513906633035e-7;
 const C5 = 2.0875723212981748279e-9;
 const C6 = -1.13596475577881948265e-11;
 
+/** Sine and cosine of half the angle of every joint of the chain being walked; grown when an arm is laid out. */
+let halves = new Float64Array(2 * 16);
+
 /**
- * running ← running · fixed · Rot(axis, q), of a slide running · fixed · Trans(axis q), row after row of `chain`, in
- * local numbers: what is stored and loaded again between two joints costs as much as the sines.
+ * Sines and cosines of half of all angles, before the walk: they do not wait for each other there.
  *
+ * Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to
+ * mispredict.
+ */
+function takeHalves(q: ArrayLike<number>): void {
+  for (let joint = 0; joint < q.length; joint++) {
+    const angle = q[joint]!;
+    const n = Math.floor(angle * TURNS_PER_RAD + 0.5);
+    const r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW);
+    const r2 = r * r;
+    const r4 = r2 * r2;
+    const sr = r + r * r2 * (S1 + r2 * S2 + r4 * (S3 + r2 * S4 + r4 * (S5 + r2 * S6)));
+    const cr = 1 - 0.5 * r2 + r4 * (C1 + r2 * C2 + r4 * (C3 + r2 * C4 + r4 * (C5 + r2 * C6)));
+    const sign = 1 - 2 * (n & 1);
+    halves[2 * joint] = sign * 2 * sr * cr;
+    halves[2 * joint + 1] = sign * (1 - 2 * sr * sr);
+  }
+}
+
+/**
+ * Forward kinematics of a laid-out arm, row after row of `chain`:
+ *
+ *   running ← running · fixed · Rot(axis, q),   of a slide   running · fixed · Trans(axis q)
+ *
+ * The running pose stays in local numbers: what is stored and loaded again between two joints costs as much as the
+ * sines. Allocates nothing.
+ *
+ * @param q       one value per joint [rad, of a slide m], checked by `chainOf`.
  * @param flange  receives the end of the chain, or null.
  * @param links   receive the base and every joint's frame after its motion, or null.
  * @param axes    receives six numbers per joint: its axis and its origin in the base, of a slide where q = 0; or null.
@@ -121,6 +151,7 @@ export function walk(
   links: readonly Pose[] | null,
   axes: Float64Array | null,
 ): void {
+  takeHalves(q);
   let x = 0;
   let y = 0;
   let z = 0;
@@ -132,15 +163,13 @@ export function walk(
   for (let at = 0, joint = 0; ; at += STRIDE, joint++) {
     const move = chain[at + 11]!;
     if (move === Z) {
-      const d = chain[at + 2]!;
-      const dd = d + d;
+      const dd = 2 * chain[at + 2]!;
       ox += (x * z + w * y) * dd;
       oy += (y * z - w * x) * dd;
-      oz += d - (x * x + y * y) * dd;
+      oz += chain[at + 2]! - (x * x + y * y) * dd;
     } else if (move === X) {
-      const d = chain[at]!;
-      const dd = d + d;
-      ox += d - (y * y + z * z) * dd;
+      const dd = 2 * chain[at]!;
+      ox += chain[at]! - (y * y + z * z) * dd;
       oy += (x * y + w * z) * dd;
       oz += (x * z - w * y) * dd;
     } else if (move === Y || move === ANY) {
@@ -169,32 +198,9 @@ export function walk(
     }
     const kind = chain[at + 10]!;
     if (kind === NONE) break;
-    if (axes !== null) {
-      const ax = chain[at + 7]!;
-      const ay = chain[at + 8]!;
-      const az = chain[at + 9]!;
-      const tx = 2 * (y * az - z * ay);
-      const ty = 2 * (z * ax - x * az);
-      const tz = 2 * (x * ay - y * ax);
-      axes[joint * 6] = ax + w * tx + y * tz - z * ty;
-      axes[joint * 6 + 1] = ay + w * ty + z * tx - x * tz;
-      axes[joint * 6 + 2] = az + w * tz + x * ty - y * tx;
-      axes[joint * 6 + 3] = ox;
-      axes[joint * 6 + 4] = oy;
-      axes[joint * 6 + 5] = oz;
-    }
-    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to
-    // mispredict.
-    const angle = q[joint]!;
-    const n = Math.floor(angle * TURNS_PER_RAD + 0.5);
-    const r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW);
-    const r2 = r * r;
-    const r4 = r2 * r2;
-    const sr = r + r * r2 * (S1 + r2 * S2 + r4 * (S3 + r2 * S4 + r4 * (S5 + r2 * S6)));
-    const cr = 1 - 0.5 * r2 + r4 * (C1 + r2 * C2 + r4 * (C3 + r2 * C4 + r4 * (C5 + r2 * C6)));
-    const sign = 1 - 2 * (n & 1);
-    const s = sign * 2 * sr * cr;
-    const c = sign * (1 - 2 * sr * sr);
+    if (axes !== null) storeAxis(axes, 6 * joint, chain, at + 7, x, y, z, w, ox, oy, oz);
+    const s = halves[2 * joint]!;
+    const c = halves[2 * joint + 1]!;
     if (kind === Z) {
       const b = chain[at + 9]! * s;
       const nx = x * c + y * b;
@@ -211,18 +217,10 @@ export function walk(
       w = w * c - y * b;
       x = nx;
       y = ny;
-    } else if (kind === X) {
-      const b = chain[at + 7]! * s;
-      const nx = x * c + w * b;
-      const ny = y * c + z * b;
-      z = z * c - y * b;
-      w = w * c - x * b;
-      x = nx;
-      y = ny;
     } else if (kind === SLIDE) {
-      const px = chain[at + 7]! * angle;
-      const py = chain[at + 8]! * angle;
-      const pz = chain[at + 9]! * angle;
+      const px = chain[at + 7]! * q[joint]!;
+      const py = chain[at + 8]! * q[joint]!;
+      const pz = chain[at + 9]! * q[joint]!;
       const tx = 2 * (y * pz - z * py);
       const ty = 2 * (z * px - x * pz);
       const tz = 2 * (x * py - y * px);
@@ -256,4 +254,32 @@ function store(out: Pose, x: number, y: number, z: number, w: number, ox: number
   position[0] = ox;
   position[1] = oy;
   position[2] = oz;
+}
+
+/** The axis at chain[a … a + 2], turned as its frame is, and the origin of that frame. */
+function storeAxis(
+  out: Float64Array,
+  to: number,
+  chain: Float64Array,
+  a: number,
+  x: number,
+  y: number,
+  z: number,
+  w: number,
+  ox: number,
+  oy: number,
+  oz: number,
+): void {
+  const ax = chain[a]!;
+  const ay = chain[a + 1]!;
+  const az = chain[a + 2]!;
+  const tx = 2 * (y * az - z * ay);
+  const ty = 2 * (z * ax - x * az);
+  const tz = 2 * (x * ay - y * ax);
+  out[to] = ax + w * tx + y * tz - z * ty;
+  out[to + 1] = ay + w * ty + z * tx - x * tz;
+  out[to + 2] = az + w * tz + x * ty - y * tx;
+  out[to + 3] = ox;
+  out[to + 4] = oy;
+  out[to + 5] = oz;
 }

@@ -113,13 +113,31 @@ function marginAt(search: Search, theta6: number): number {
 function findStretches(search: Search): number {
   const { stretches, samples } = search.scratch;
   const step = TURN / CIRCLE;
-  // Borders in order around the circle; a sliver between two samples shows as an extreme value of the margin.
-  let borders = 0;
   let inside = 0;
   for (let i = 0; i < CIRCLE; i++) {
     samples[i] = marginAt(search, i * step);
     if (samples[i]! > 0) inside++;
   }
+  const marks = sliversBetween(search, step);
+  if (inside === CIRCLE && marks.length === 0) {
+    stretches[0] = 0;
+    stretches[1] = TURN;
+    return 1;
+  }
+  const points = [
+    ...Array.from({ length: CIRCLE }, (_, i) => i * step),
+    ...marks.map(mark => ((mark % TURN) + TURN) % TURN),
+  ].sort((a, b) => a - b);
+  points.push(points[0]! + TURN);
+  const borders = bordersBetween(search, points);
+  const count = Math.min(borders.length, stretches.length) >> 1;
+  for (let i = 0; i < 2 * count; i++) stretches[i] = borders[i]!;
+  return count;
+}
+
+/** Where between two samples the arm reaches, or does not, unlike at both: an extreme value of the margin shows it. */
+function sliversBetween(search: Search, step: number): number[] {
+  const samples = search.scratch.samples;
   const marks: number[] = [];
   for (let i = 0; i < CIRCLE; i++) {
     const before = samples[(i + CIRCLE - 1) % CIRCLE]!;
@@ -133,41 +151,33 @@ function findStretches(search: Search): number {
       if (marginAt(search, extreme) > 0 !== here > 0) marks.push(extreme);
     }
   }
-  const points = [
-    ...Array.from({ length: CIRCLE }, (_, i) => i * step),
-    ...marks.map(mark => ((mark % TURN) + TURN) % TURN),
-  ].sort((a, b) => a - b);
-  points.push(points[0]! + TURN);
-  if (inside === CIRCLE && marks.length === 0) {
-    stretches[0] = 0;
-    stretches[1] = TURN;
-    return 1;
-  }
+  return marks;
+}
+
+/** The borders of the reach between neighbouring points, in order around the circle, beginning with a start. */
+function bordersBetween(search: Search, points: readonly number[]): number[] {
   const found: number[] = [];
+  let endsFirst = false;
   for (let i = 0; i + 1 < points.length; i++) {
-    const a = points[i]!;
-    const b = points[i + 1]!;
-    const from = marginAt(search, a) > 0;
-    if (from === marginAt(search, b) > 0) continue;
-    let low = a;
-    let high = b;
+    const from = marginAt(search, points[i]!) > 0;
+    if (from === marginAt(search, points[i + 1]!) > 0) continue;
+    let low = points[i]!;
+    let high = points[i + 1]!;
     for (let k = 0; k < BISECTIONS; k++) {
       const middle = 0.5 * (low + high);
       if (marginAt(search, middle) > 0 === from) low = middle;
       else high = middle;
     }
+    if (found.length === 0) endsFirst = from;
     // The side within reach of the two.
     found.push(from ? low : high);
-    if (found.length === 1 && from) borders = 1;
   }
   // An end first means that the first stretch began before 0.
-  if (borders === 1) {
+  if (endsFirst) {
     const end = found.shift();
     if (end !== undefined) found.push(end + TURN);
   }
-  const count = Math.min(found.length, stretches.length) >> 1;
-  for (let i = 0; i < 2 * count; i++) stretches[i] = found[i]!;
-  return count;
+  return found;
 }
 
 interface Sample {

@@ -1,6 +1,6 @@
 import type { SphericalSevenGeometry } from "../model/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
-import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
+import { formulaToJoints, freeAngle, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
 /** Below this sine of θ2 or θ6 the axes on both sides are one line, and one of the two angles is free to choose. */
 const SINGULAR_SINE = 2e-10;
@@ -16,8 +16,28 @@ const UPRIGHT_SINE = 1e-9;
  * neither side.
  */
 const LEAST_BEND = 0.02;
-/** Kept between the steps of one call. */
+/** Kept between the steps of one call: the wanted wrist. */
 const WANTED = new Float64Array(WRIST_NUMBERS);
+/** Kept between the steps of one call: the arm on its way, from the upper arm to what θ7 follows from. */
+const STEP = new Float64Array(18);
+const UX = 0;
+const UY = 1;
+const UZ = 2;
+const DX = 3;
+const DY = 4;
+const DZ = 5;
+const COS4 = 6;
+const SIN4 = 7;
+const THETA1 = 8;
+const THETA2 = 9;
+const THETA3 = 10;
+const THETA4 = 11;
+const THETA5 = 12;
+const THETA6 = 13;
+const V11 = 14;
+const V12 = 15;
+const V21 = 16;
+const V22 = 17;
 
 /**
  * Closed-form inverse of a seven-joint arm with spherical shoulder and wrist, all eight branches of one elbow angle.
@@ -48,44 +68,67 @@ export function solveSphericalSeven(
   out: Float64Array,
   near?: ArrayLike<number>,
 ): number {
-  const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
-
   wantedWrist(geometry, baseFromFlange, WANTED);
+  if (!placeElbow(geometry, elbow_rad)) return 0;
+  const oneShoulder = solveShoulder(geometry, near);
+  const oneWrist = solveWrist();
+  const t1 = STEP[THETA1]!;
+  const t2 = STEP[THETA2]!;
+  const t3 = STEP[THETA3]!;
+  const t4 = STEP[THETA4]!;
+  const t6 = STEP[THETA6]!;
+  let at = 0;
+  const lastShoulder = oneShoulder ? 1 : -1;
+  const lastWrist = oneWrist ? 1 : -1;
+  for (let shoulder = 1; shoulder >= lastShoulder; shoulder -= 2) {
+    const turned3 = shoulder === 1 ? 0 : Math.PI;
+    for (let elbow = 1; elbow >= -1; elbow -= 2) {
+      // θ4 < 0 turns frame 4 by π about its z axis, and θ5 takes that back.
+      const turned5 = elbow === 1 ? 0 : Math.PI;
+      const t5 = oneWrist ? freeAngle(geometry, near, 4) - turned5 : STEP[THETA5]!;
+      const k5 = Math.cos(t5);
+      const s5 = Math.sin(t5);
+      const t7 = Math.atan2(k5 * STEP[V21]! - s5 * STEP[V11]!, k5 * STEP[V22]! - s5 * STEP[V12]!);
+      for (let wrist = 1; wrist >= lastWrist; wrist -= 2) {
+        const half = wrist === 1 ? 0 : Math.PI;
+        out[at] = t1 + turned3;
+        out[at + 1] = shoulder * t2;
+        out[at + 2] = t3 + turned3 + turned5;
+        out[at + 3] = elbow * t4;
+        out[at + 4] = t5 + turned5 + half;
+        out[at + 5] = wrist * t6;
+        out[at + 6] = t7 + half;
+        at += 7;
+      }
+    }
+  }
+  formulaToJoints(out, at, geometry.signs, geometry.offsets_rad);
+  return at / 7;
+}
+
+/**
+ * Upper arm u, the side d that the forearm bends to and θ4 ≥ 0 for the elbow angle, into `STEP`.
+ *
+ * @returns whether the wrist is within reach.
+ */
+function placeElbow({ c3_m: c3, c5_m: c5, deviation_m }: SphericalSevenGeometry, elbow_rad: number): boolean {
   const px = WANTED[0]!;
   const py = WANTED[1]!;
   const pz = WANTED[2]!;
-  const r11 = WANTED[3]!;
-  const r21 = WANTED[4]!;
-  const r31 = WANTED[5]!;
-  const r12 = WANTED[6]!;
-  const r22 = WANTED[7]!;
-  const r32 = WANTED[8]!;
-  const r13 = WANTED[9]!;
-  const r23 = WANTED[10]!;
-  const r33 = WANTED[11]!;
-
   const r2 = px * px + py * py + pz * pz;
   const r = Math.sqrt(r2);
   // An arm that misses the formula may reach where the formula does not: a start is given for it to be refined.
-  const edge = EDGE_M + 2 * geometry.deviation_m;
-  if (r > c3 + c5 + edge || r < Math.abs(c3 - c5) - edge) return 0;
+  const edge = EDGE_M + 2 * deviation_m;
+  if (r > c3 + c5 + edge || r < Math.abs(c3 - c5) - edge) return false;
   const wx = r > 0 ? px / r : 0;
   const wy = r > 0 ? py / r : 0;
   const wz = r > 0 ? pz / r : 1;
   const level = Math.sqrt(wx * wx + wy * wy);
   // t1 = (ẑ − wz w) / level, or x̂ where w is upright.
-  let t1x: number;
-  let t1y: number;
-  let t1z: number;
-  if (level > UPRIGHT_SINE) {
-    t1x = (-wz * wx) / level;
-    t1y = (-wz * wy) / level;
-    t1z = level;
-  } else {
-    t1x = 1 - wx * wx;
-    t1y = -wx * wy;
-    t1z = -wx * wz;
-  }
+  const slanted = level > UPRIGHT_SINE;
+  const t1x = slanted ? (-wz * wx) / level : 1 - wx * wx;
+  const t1y = slanted ? (-wz * wy) / level : -wx * wy;
+  const t1z = slanted ? level : -wx * wz;
   const t2x = wy * t1z - wz * t1y;
   const t2y = wz * t1x - wx * t1z;
   const t2z = wx * t1y - wy * t1x;
@@ -97,31 +140,73 @@ export function solveSphericalSeven(
 
   const cosine = (r2 - c3 * c3 - c5 * c5) / (2 * c3 * c5);
   const cos4 = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
-  const least = geometry.deviation_m > 0 ? LEAST_BEND : 0;
+  const least = deviation_m > 0 ? LEAST_BEND : 0;
   const sin4 = Math.max(least, Math.sqrt((1 - cos4) * (1 + cos4)));
-  const t4 = Math.atan2(sin4, cos4);
   const across = c5 * sin4;
   const along = c3 + c5 * cos4;
   const length = Math.sqrt(across * across + along * along);
   const ka = length > 0 ? along / length : 1;
   const sa = length > 0 ? across / length : 0;
-  const ux = ka * wx + sa * tx;
-  const uy = ka * wy + sa * ty;
-  const uz = ka * wz + sa * tz;
-  const dx = sa * wx - ka * tx;
-  const dy = sa * wy - ka * ty;
-  const dz = sa * wz - ka * tz;
+  STEP[UX] = ka * wx + sa * tx;
+  STEP[UY] = ka * wy + sa * ty;
+  STEP[UZ] = ka * wz + sa * tz;
+  STEP[DX] = sa * wx - ka * tx;
+  STEP[DY] = sa * wy - ka * ty;
+  STEP[DZ] = sa * wz - ka * tz;
+  STEP[THETA4] = Math.atan2(sin4, cos4);
+  STEP[COS4] = cos4;
+  STEP[SIN4] = sin4;
+  return true;
+}
+
+/**
+ * θ1, θ2 ≥ 0 and θ3 from u and d.
+ *
+ * @returns whether the upper arm lies along axis 1, so that there is one shoulder only.
+ */
+function solveShoulder(geometry: SphericalSevenGeometry, near: ArrayLike<number> | undefined): boolean {
+  const ux = STEP[UX]!;
+  const uy = STEP[UY]!;
+  const uz = STEP[UZ]!;
+  const dx = STEP[DX]!;
+  const dy = STEP[DY]!;
   const sin2 = Math.sqrt(ux * ux + uy * uy);
-  const free2 = sin2 < SINGULAR_SINE;
-  const positive2 = Math.atan2(sin2, uz);
-  const positive1 = free2 ? signs[0] * (near === undefined ? 0 : near[0]!) - offsets[0] : Math.atan2(uy, ux);
-  const k1 = free2 ? Math.cos(positive1) : ux / sin2;
-  const s1 = free2 ? Math.sin(positive1) : uy / sin2;
-  const near5 = signs[4] * (near === undefined ? 0 : near[4]!) - offsets[4];
+  const free = sin2 < SINGULAR_SINE;
+  const t1 = free ? freeAngle(geometry, near, 0) : Math.atan2(uy, ux);
+  const k1 = free ? Math.cos(t1) : ux / sin2;
+  const s1 = free ? Math.sin(t1) : uy / sin2;
   // d seen from frame 2 is (cos θ3, sin θ3, 0) for θ2, θ4 ≥ 0; each other sign turns it by π.
-  const inX = uz * (k1 * dx + s1 * dy) - sin2 * dz;
+  const inX = uz * (k1 * dx + s1 * dy) - sin2 * STEP[DZ]!;
   const inY = k1 * dy - s1 * dx;
-  const positive3 = Math.atan2(inY, inX);
+  STEP[THETA1] = t1;
+  STEP[THETA2] = Math.atan2(sin2, uz);
+  STEP[THETA3] = Math.atan2(inY, inX);
+  return free;
+}
+
+/**
+ * θ5, θ6 ≥ 0 and what θ7 follows from: R seen from frame 4.
+ *
+ * @returns whether axes 5 and 7 are one line, so that there is one wrist only, and θ5 is free.
+ */
+function solveWrist(): boolean {
+  const ux = STEP[UX]!;
+  const uy = STEP[UY]!;
+  const uz = STEP[UZ]!;
+  const dx = STEP[DX]!;
+  const dy = STEP[DY]!;
+  const dz = STEP[DZ]!;
+  const cos4 = STEP[COS4]!;
+  const sin4 = STEP[SIN4]!;
+  const r11 = WANTED[3]!;
+  const r21 = WANTED[4]!;
+  const r31 = WANTED[5]!;
+  const r12 = WANTED[6]!;
+  const r22 = WANTED[7]!;
+  const r32 = WANTED[8]!;
+  const r13 = WANTED[9]!;
+  const r23 = WANTED[10]!;
+  const r33 = WANTED[11]!;
   // Frame 4 has the axes y4 = u × d and z4 = cos θ4 · u + sin θ4 · d, x4 = y4 × z4; its turn by π about z4 goes into
   // θ5.
   const y4x = uy * dz - uz * dy;
@@ -137,39 +222,14 @@ export function solveSphericalSeven(
   const m23 = y4x * r13 + y4y * r23 + y4z * r33;
   const m33 = z4x * r13 + z4y * r23 + z4z * r33;
   const sin6 = Math.sqrt(m13 * m13 + m23 * m23);
-  const free6 = sin6 < SINGULAR_SINE;
-  const positive6 = free6 ? (m33 > 0 ? 0 : Math.PI) : Math.atan2(sin6, m33);
-
-  let at = 0;
-  const last2 = free2 ? 1 : -1;
-  const last6 = free6 ? 1 : -1;
-  for (let shoulder = 1; shoulder >= last2; shoulder -= 2) {
-    for (let elbow = 1; elbow >= -1; elbow -= 2) {
-      // θ4 < 0 turns frame 4 by π about its z axis, and θ5 takes that back.
-      const turned5 = elbow === 1 ? 0 : Math.PI;
-      const t5 = free6 ? near5 - turned5 : Math.atan2(m23, m13);
-      const k5 = Math.cos(t5);
-      const s5 = Math.sin(t5);
-      const v11 = x4x * r11 + x4y * r21 + x4z * r31;
-      const v12 = x4x * r12 + x4y * r22 + x4z * r32;
-      const v21 = y4x * r11 + y4y * r21 + y4z * r31;
-      const v22 = y4x * r12 + y4y * r22 + y4z * r32;
-      const t7 = Math.atan2(k5 * v21 - s5 * v11, k5 * v22 - s5 * v12);
-      for (let wrist = 1; wrist >= last6; wrist -= 2) {
-        const half = wrist === 1 ? 0 : Math.PI;
-        out[at] = shoulder === 1 ? positive1 : positive1 + Math.PI;
-        out[at + 1] = shoulder * positive2;
-        out[at + 2] = positive3 + (shoulder === 1 ? 0 : Math.PI) + (elbow === 1 ? 0 : Math.PI);
-        out[at + 3] = elbow * t4;
-        out[at + 4] = t5 + turned5 + half;
-        out[at + 5] = wrist * positive6;
-        out[at + 6] = t7 + half;
-        at += 7;
-      }
-    }
-  }
-  formulaToJoints(out, at, signs, offsets);
-  return at / 7;
+  const free = sin6 < SINGULAR_SINE;
+  STEP[THETA5] = Math.atan2(m23, m13);
+  STEP[THETA6] = free ? (m33 > 0 ? 0 : Math.PI) : Math.atan2(sin6, m33);
+  STEP[V11] = x4x * r11 + x4y * r21 + x4z * r31;
+  STEP[V12] = x4x * r12 + x4y * r22 + x4z * r32;
+  STEP[V21] = y4x * r11 + y4y * r21 + y4z * r31;
+  STEP[V22] = y4x * r12 + y4y * r22 + y4z * r32;
+  return free;
 }
 
 /**

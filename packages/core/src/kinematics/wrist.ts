@@ -61,7 +61,21 @@ export function wantedWrist(
   out[2] = az + gw * bz + gx * by - gy * bx - out[5]! * s[0] - out[8]! * s[1] - out[11]! * s[2];
 }
 
+/** Signs and zeros of a formula's angles in the robot's own: robot angle = sign · (formula angle + offset). */
+export interface FormulaZeros {
+  readonly signs: readonly number[];
+  readonly offsets_rad: readonly number[];
+}
+
+/** The formula angle [rad] of a joint that is free to choose: the one of `near`, or of 0; `joint` counts from 0. */
+export const freeAngle = (
+  { signs, offsets_rad }: FormulaZeros,
+  near: ArrayLike<number> | undefined,
+  joint: number,
+): number => signs[joint]! * (near === undefined ? 0 : near[joint]!) - offsets_rad[joint]!;
+
 const TURN = 2 * Math.PI;
+const TURNS_PER_RAD = 1 / TURN;
 
 /**
  * Turns the angles of a formula into the robot's own, in place: sign · (θ + offset), in (−π, π].
@@ -81,11 +95,10 @@ export function formulaToJoints(
     const offset = offsets_rad[joint]!;
     for (let i = joint; i < count; i += joints) {
       let angle = sign * (out[i]! + offset);
-      if (angle > Math.PI || angle <= -Math.PI) {
-        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
-        if (angle <= -Math.PI) angle += TURN;
-        else if (angle > Math.PI) angle -= TURN;
-      }
+      // Whole turns without asking whether there are any: half of the branches of an arm have them, half have not.
+      angle -= TURN * Math.floor((angle + Math.PI) * TURNS_PER_RAD);
+      if (angle <= -Math.PI) angle += TURN;
+      else if (angle > Math.PI) angle -= TURN;
       out[i] = angle;
     }
   }

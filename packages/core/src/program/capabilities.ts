@@ -1,4 +1,4 @@
-import type { Predicate, Program, Step } from "./program.ts";
+import type { MoveStep, Predicate, Program, Step } from "./program.ts";
 import { everyStep } from "./walk.ts";
 
 /** Everything a program can ask of a robot language, so that what one cannot say has the same name everywhere. */
@@ -42,21 +42,8 @@ export type Capability = (typeof CAPABILITIES)[number];
 /** What a step asks for by itself, without the steps inside it. */
 export function* capabilitiesOf(step: Step): Generator<Capability, void> {
   switch (step.type) {
-    case "move": {
-      yield step.path;
-      if ("time_s" in step.speed) yield "duration";
-      if (step.acceleration !== undefined) yield "acceleration";
-      if (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) yield "blend";
-      if (step.until !== undefined) {
-        yield "search";
-        yield* read(step.until.when);
-      }
-      for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
-        if (target.tool !== undefined && target.tool !== "flange") yield "tool";
-        if ("pose" in target && target.frame !== "world") yield "frame";
-      }
-      return;
-    }
+    case "move":
+      return yield* capabilitiesOfMove(step);
     case "set":
       yield typeof step.to === "number" ? "set-analogue" : "set-digital";
       if (step.pulse_s !== undefined) yield "pulse";
@@ -83,6 +70,21 @@ export function* capabilitiesOf(step: Step): Generator<Capability, void> {
       return;
     default:
       yield step.type;
+  }
+}
+
+function* capabilitiesOfMove(step: MoveStep): Generator<Capability, void> {
+  yield step.path;
+  if ("time_s" in step.speed) yield "duration";
+  if (step.acceleration !== undefined) yield "acceleration";
+  if (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) yield "blend";
+  if (step.until !== undefined) {
+    yield "search";
+    yield* read(step.until.when);
+  }
+  for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
+    if (target.tool !== undefined && target.tool !== "flange") yield "tool";
+    if ("pose" in target && target.frame !== "world") yield "frame";
   }
 }
 

@@ -151,51 +151,45 @@ class Flow {
       if (passing !== undefined && (isBlock(step) || step.type === "call" || step.type === "assign"))
         yield this.stand(passing, 0);
       passing = undefined;
-      switch (step.type) {
-        case "comment":
-          break;
-        case "assign":
-          yield { kind: "passed", step };
-          yield* this.assign(step);
-          break;
-        case "repeat":
-          yield* this.repeat(step);
-          break;
-        case "while":
-          yield* this.while(step);
-          break;
-        case "if":
-          yield* this.if(step);
-          break;
-        case "pallet":
-          yield* this.pallet(step);
-          break;
-        case "call":
-          yield* this.call(step);
-          break;
-        case "wait-for":
-          yield* this.waitFor(step);
-          break;
-        case "move": {
-          if (passesOn(step)) passing = step;
-          yield this.step(this.placed(step), step);
-          break;
-        }
-        case "stop":
-          yield this.step(step, step);
-          yield { kind: "end" };
-          // Where both sides are looked at, the other side still follows.
-          if (this.options.decide !== undefined) {
-            this.ended = true;
-            return;
-          }
-          break;
-        default:
-          yield this.step(step, step);
-      }
+      if (step.type === "move" && passesOn(step)) passing = step;
+      yield* this.one(step);
       if (this.ended) return;
     }
     if (passing !== undefined && inside) yield this.stand(passing, 0);
+  }
+
+  /** One step of a list with everything inside it. */
+  private *one(step: Step): Generator<FlowEvent, void> {
+    switch (step.type) {
+      case "comment":
+        return;
+      case "assign":
+        yield { kind: "passed", step };
+        return yield* this.assign(step);
+      case "repeat":
+        return yield* this.repeat(step);
+      case "while":
+        return yield* this.while(step);
+      case "if":
+        return yield* this.if(step);
+      case "pallet":
+        return yield* this.pallet(step);
+      case "call":
+        return yield* this.call(step);
+      case "wait-for":
+        return yield* this.waitFor(step);
+      case "move":
+        yield this.step(this.placed(step), step);
+        return;
+      case "stop":
+        yield this.step(step, step);
+        yield { kind: "end" };
+        // Where both sides are looked at, the other side still follows.
+        this.ended ||= this.options.decide !== undefined;
+        return;
+      default:
+        yield this.step(step, step);
+    }
   }
 
   private step(step: PrimitiveStep, written: Step): FlowEvent {

@@ -3,7 +3,7 @@ export * from "./pallet.ts";
 export * from "./expression/index.ts";
 export * from "./predicate.ts";
 export * from "./lower.ts";
-export { variableNameFault } from "./read/variables.ts";
+export { variableNameFault, type VariableNameFault } from "./read/variables.ts";
 export { scopeOf } from "./read/scope.ts";
 export * from "./version.ts";
 export * from "./walk.ts";

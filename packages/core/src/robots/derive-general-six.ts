@@ -15,6 +15,7 @@ import {
   seenFrom,
   skew,
   upward,
+  type Line,
   type Turned,
 } from "./axes.ts";
 import type { GeneralSixGeometry } from "../model/robot.ts";
@@ -28,6 +29,7 @@ const X: Vector3 = [1, 0, 0];
 const Y: Vector3 = [0, 1, 0];
 const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
+type SixAxes = [Line, Line, Line, Line, Line, Line];
 
 /**
  * Lengths, zeros and turning senses of a six-joint arm with axis 1 square to 2, axes 2 and 3 parallel, and 4 meeting 5;
@@ -38,8 +40,8 @@ type Six = [number, number, number, number, number, number];
  */
 export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
   if (arm.joints.length !== 6) return null;
-  const [axis1, axis2, axis3, axis4, axis5, axis6] = axesAtZero(arm);
-  if (!axis1 || !axis2 || !axis3 || !axis4 || !axis5 || !axis6) return null;
+  const axes = axesAtZero(arm) as SixAxes;
+  const [axis1, axis2, axis3, axis4, axis5] = axes;
   if (Math.abs(dot(axis1.along, axis2.along)) > ROUNDING || skew(axis2.along, axis3.along) > ROUNDING) return null;
   if (skew(axis4.along, axis5.along) < LEAST_SKEW || passing(axis4, axis5) > ROUNDING) return null;
 
@@ -50,10 +52,7 @@ export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
   let baseFromFormula: Pose<"base", "formula"> = frameOf(origin, up, axis2.along);
   if (rotate(baseFromFormula.quaternion, X)[0] < -ROUNDING)
     baseFromFormula = frameOf(origin, up, scale(axis2.along, -1));
-  const [two, three, four, five, six] = [axis2, axis3, axis4, axis5, axis6].map(axis =>
-    seenFrom(baseFromFormula, axis),
-  );
-  if (!two || !three || !four || !five || !six) return null;
+  const [, two, three, four, five, six] = axes.map(axis => seenFrom(baseFromFormula, axis)) as SixAxes;
   const [xc, b, zc] = seenFrom(baseFromFormula, { along: Z, through: centre }).through;
   signs[1] = two.along[1] < 0 ? -1 : 1;
   signs[2] = three.along[1] < 0 ? -1 : 1;
@@ -64,13 +63,7 @@ export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
   // Upper arm upright at θ2 = 0; θ3 such that link 3 stands as the formula's frame when the joint angles are 0.
   const lean2 = Math.atan2(upper[0], upper[2]);
 
-  const middle: Vector3 = [xc, b, zc];
-  const nearest = addScaled(six.through, six.along, dot(subtract(middle, six.through), six.along));
-  const out = subtract(nearest, middle);
-  const e = norm(out);
-  const meets = e < ROUNDING;
-  const away = meets ? perpendicular(six.along) : scale(out, 1 / e);
-  const wrist = frameOf<"formula", "wrist">(meets ? middle : nearest, six.along, cross(six.along, away));
+  const { wrist, e_m } = wristOf([xc, b, zc], six);
   const flange = flangePose(arm, new Float64Array(6));
   const baseFromWrist = compose(baseFromFormula, wrist);
   const geometry: GeneralSixGeometry = {
@@ -78,7 +71,7 @@ export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
     a1_m: clean(two.through[0]),
     b_m: clean(b),
     c2_m: c2,
-    e_m: meets ? 0 : e,
+    e_m,
     centre_m: [clean(fore[0]), clean(fore[1])],
     axis4: four.along,
     axis5: five.along,
@@ -90,6 +83,19 @@ export function generalSixFromArm(arm: SerialArm): GeneralSixGeometry | null {
   };
   const { position_m, angle_rad } = deviation(arm, q => generalSixFlange(geometry, q));
   return position_m < AGREES && angle_rad < AGREES ? geometry : null;
+}
+
+/**
+ * The frame on axis 6 nearest to the point where axes 4 and 5 meet, z along axis 6 and x away from that point, in the
+ * formula's frame; and how far it is from there, 0 where axis 6 goes through the point.
+ */
+function wristOf(centre: Vector3, axis6: Line): { readonly wrist: Pose<"formula", "wrist">; readonly e_m: number } {
+  const nearest = addScaled(axis6.through, axis6.along, dot(subtract(centre, axis6.through), axis6.along));
+  const out = subtract(nearest, centre);
+  const e = norm(out);
+  const meets = e < ROUNDING;
+  const away = meets ? perpendicular(axis6.along) : scale(out, 1 / e);
+  return { wrist: frameOf(meets ? centre : nearest, axis6.along, cross(axis6.along, away)), e_m: meets ? 0 : e };
 }
 
 /**

@@ -3,7 +3,18 @@ import { compose, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { distance, dot, scale, subtract, type Vector3 } from "../spatial/vector.ts";
 import type { SerialArm } from "../model/arm.ts";
-import { axesAtZero, deviation, distanceFrom, footOn, frameOf, passing, product, upward, type Turned } from "./axes.ts";
+import {
+  axesAtZero,
+  deviation,
+  distanceFrom,
+  footOn,
+  frameOf,
+  passing,
+  product,
+  upward,
+  type Line,
+  type Turned,
+} from "./axes.ts";
 import type { SphericalSevenGeometry } from "../model/robot.ts";
 
 const ROUNDING = 1e-7;
@@ -18,6 +29,7 @@ const SHORTEST_M = 0.02;
 const Y: Vector3 = [0, 1, 0];
 const Z: Vector3 = [0, 0, 1];
 type Seven = [number, number, number, number, number, number, number];
+type SevenAxes = [Line, Line, Line, Line, Line, Line, Line];
 
 /**
  * Lengths, zeros and turning senses of a seven-joint arm with each axis square to the next, axes 1, 2, 3 through one
@@ -28,12 +40,9 @@ type Seven = [number, number, number, number, number, number, number];
  */
 export function sphericalSevenFromArm(arm: SerialArm): SphericalSevenGeometry | null {
   if (arm.joints.length !== 7) return null;
-  const axes = axesAtZero(arm);
+  const axes = axesAtZero(arm) as SevenAxes;
   const [axis1, axis2, axis3, axis4, axis5, axis6, axis7] = axes;
-  if (!axis1 || !axis2 || !axis3 || !axis4 || !axis5 || !axis6 || !axis7) return null;
-  for (let j = 0; j < 6; j++)
-    if (Math.abs(dot(axes[j]!.along, axes[j + 1]!.along)) > ROUNDING || passing(axes[j]!, axes[j + 1]!) > OFFSET_M)
-      return null;
+  if (axes.some((axis, j) => j < 6 && !squareAndMeeting(axis, axes[j + 1]!))) return null;
   const shoulder = footOn(axis1, axis2);
   const elbow = footOn(axis4, axis5);
   const wrist = footOn(axis5, axis6);
@@ -56,16 +65,7 @@ export function sphericalSevenFromArm(arm: SerialArm): SphericalSevenGeometry | 
     baseFromFormula = frameOf(shoulder, up, scale(axis2.along, -1));
     signs[1] = -1;
   }
-  // From axis to axis: the angle before it turns the formula's z or y onto it.
-  let frame: Quaternion = baseFromFormula.quaternion;
-  for (let j = 2; j < 7; j++) {
-    const seen = rotate([-frame[0], -frame[1], -frame[2], frame[3]], axes[j]!.along);
-    const aboutY = j % 2 === 0;
-    if (!aboutY) signs[j] = seen[1] < -ROUNDING ? -1 : 1;
-    const [x, y, z] = scale(seen, signs[j]!);
-    zeros[j - 1] = aboutY ? Math.atan2(x, z) : Math.atan2(-x, y);
-    frame = multiply(frame, fromAxisAngle(aboutY ? Y : Z, zeros[j - 1]!));
-  }
+  const frame = turnOntoAxes(axes, baseFromFormula.quaternion, signs, zeros);
   const [o1, o2, o3, o4, o5, o6, o7] = zeros.map(zero => -zero || 0);
   const geometry: SphericalSevenGeometry = {
     kind: "spherical-seven",
@@ -80,6 +80,26 @@ export function sphericalSevenFromArm(arm: SerialArm): SphericalSevenGeometry | 
   const { position_m, angle_rad } = deviation(arm, q => sphericalSevenFlange(geometry, q));
   if (!(position_m < AGREES_M && angle_rad < AGREES_RAD)) return null;
   return position_m < EXACT_M ? geometry : { ...geometry, deviation_m: position_m };
+}
+
+const squareAndMeeting = (a: Line, b: Line): boolean =>
+  Math.abs(dot(a.along, b.along)) <= ROUNDING && passing(a, b) <= OFFSET_M;
+
+/**
+ * From axis to axis: the angle before an axis turns the formula's z or y onto it. Completes `signs` of the level axes
+ * and `zeros`, and returns the orientation of the wrist in the base.
+ */
+function turnOntoAxes(axes: SevenAxes, baseFromFormula: Quaternion, signs: Seven, zeros: Seven): Quaternion {
+  let frame = baseFromFormula;
+  for (let j = 2; j < 7; j++) {
+    const seen = rotate([-frame[0], -frame[1], -frame[2], frame[3]], axes[j]!.along);
+    const aboutY = j % 2 === 0;
+    if (!aboutY) signs[j] = seen[1] < -ROUNDING ? -1 : 1;
+    const [x, y, z] = scale(seen, signs[j]!);
+    zeros[j - 1] = aboutY ? Math.atan2(x, z) : Math.atan2(-x, y);
+    frame = multiply(frame, fromAxisAngle(aboutY ? Y : Z, zeros[j - 1]!));
+  }
+  return frame;
 }
 
 /**

@@ -15,6 +15,7 @@ import {
   seenFrom,
   skew,
   upward,
+  type Line,
   type Turned,
 } from "./axes.ts";
 import type { ThreeParallelGeometry } from "../model/robot.ts";
@@ -30,6 +31,7 @@ const X: Vector3 = [1, 0, 0];
 const Y: Vector3 = [0, 1, 0];
 const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
+type SixAxes = [Line, Line, Line, Line, Line, Line];
 
 /**
  * Lengths, zeros and turning senses of an arm whose axes 2, 3 and 4 are parallel and square to axis 1, with 5 square to
@@ -42,14 +44,9 @@ type Six = [number, number, number, number, number, number];
  */
 export function threeParallelFromArm(arm: SerialArm): ThreeParallelGeometry | null {
   if (arm.joints.length !== 6) return null;
-  const [axis1, axis2, axis3, axis4, axis5, axis6] = axesAtZero(arm);
-  if (!axis1 || !axis2 || !axis3 || !axis4 || !axis5 || !axis6) return null;
-  const parallel = skew(axis2.along, axis3.along) < ROUNDING && skew(axis3.along, axis4.along) < ROUNDING;
-  const square =
-    Math.abs(dot(axis1.along, axis2.along)) < ROUNDING &&
-    Math.abs(dot(axis4.along, axis5.along)) < ROUNDING &&
-    Math.abs(dot(axis5.along, axis6.along)) < ROUNDING;
-  if (!parallel || !square || passing(axis4, axis5) > ROUNDING || passing(axis5, axis6) > ROUNDING) return null;
+  const axes = axesAtZero(arm) as SixAxes;
+  if (!isThreeParallel(axes)) return null;
+  const [axis1, axis2, , , axis5, axis6] = axes;
 
   const signs: Six = [upward(axis1.along), 1, 1, 1, 1, 1];
   const up = scale(axis1.along, signs[0]);
@@ -60,11 +57,8 @@ export function threeParallelFromArm(arm: SerialArm): ThreeParallelGeometry | nu
   const ahead = seenFrom(baseFromFormula, { along: Z, through: wrist }).through[0];
   if (ahead < -ROUNDING || (Math.abs(ahead) <= ROUNDING && rotate(baseFromFormula.quaternion, X)[0] < 0))
     baseFromFormula = frameOf(origin, up, scale(axis2.along, -1));
-  const [, two, three, four, five, six] = [axis1, axis2, axis3, axis4, axis5, axis6].map(axis =>
-    seenFrom(baseFromFormula, axis),
-  );
+  const [, two, three, four, five, six] = axes.map(axis => seenFrom(baseFromFormula, axis)) as SixAxes;
   const [xw, b, zw] = seenFrom(baseFromFormula, { along: Z, through: wrist }).through;
-  if (!two || !three || !four || !five || !six) return null;
   for (const [j, axis] of [two, three, four].entries()) signs[j + 1] = axis.along[1] < 0 ? -1 : 1;
 
   const upper = subtract(three.through, two.through);
@@ -104,6 +98,16 @@ export function threeParallelFromArm(arm: SerialArm): ThreeParallelGeometry | nu
   };
   const { position_m, angle_rad } = deviation(arm, q => threeParallelFlange(geometry, q));
   return position_m < AGREES && angle_rad < AGREES ? geometry : null;
+}
+
+/** Axes 2, 3 and 4 parallel and square to 1, 5 square to 4, 6 square to 5, each of these meeting the one before. */
+function isThreeParallel([axis1, axis2, axis3, axis4, axis5, axis6]: SixAxes): boolean {
+  const parallel = skew(axis2.along, axis3.along) < ROUNDING && skew(axis3.along, axis4.along) < ROUNDING;
+  const square =
+    Math.abs(dot(axis1.along, axis2.along)) < ROUNDING &&
+    Math.abs(dot(axis4.along, axis5.along)) < ROUNDING &&
+    Math.abs(dot(axis5.along, axis6.along)) < ROUNDING;
+  return parallel && square && passing(axis4, axis5) <= ROUNDING && passing(axis5, axis6) <= ROUNDING;
 }
 
 /**

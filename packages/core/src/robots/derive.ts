@@ -16,6 +16,7 @@ const VERIFIED = 1e-9;
 const Y: Vector3 = [0, 1, 0];
 const Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
+type SixAxes = [Line, Line, Line, Line, Line, Line];
 
 /**
  * The seven lengths, zeros and turning senses of an arm whose inverse the closed form knows: axis 1 upright through the
@@ -29,26 +30,15 @@ type Six = [number, number, number, number, number, number];
  */
 export function orthoParallelFromArm(arm: SerialArm): OrthoParallelGeometry | null {
   if (arm.joints.length !== 6) return null;
-  const axes = axesAtZero(arm);
+  const axes = axesAtZero(arm) as SixAxes;
+  const wrist = wristCentreOf(axes);
+  if (wrist === undefined) return null;
   const [axis1, axis2, axis3, axis4, axis5, axis6] = axes;
-  if (!axis1 || !axis2 || !axis3 || !axis4 || !axis5 || !axis6) return null;
-  const upright =
-    Math.abs(Math.abs(axis1.along[2]) - 1) < ROUNDING && Math.hypot(axis1.through[0], axis1.through[1]) < ROUNDING;
-  const level =
-    Math.abs(axis2.along[2]) < ROUNDING &&
-    norm(cross(axis2.along, axis3.along)) < ROUNDING &&
-    Math.abs(dot(axis3.along, axis4.along)) < ROUNDING;
-  const wrist = level ? meeting(axis4, axis5) : undefined;
-  if (!upright || !wrist || distanceFrom(axis6, wrist) > ROUNDING) return null;
   const signs: Six = [1, 1, 1, 1, 1, 1];
   const zeros: Six = [0, 0, 0, 0, 0, 0];
 
-  // Shoulder: axis 2 = s2 · Rz(θ1) ŷ. Of the two headings the one with the shoulder in front, else the smaller.
   signs[0] = Math.sign(axis1.along[2]);
-  zeros[0] = Math.atan2(-axis2.along[0], axis2.along[1]);
-  const ahead = Math.cos(zeros[0]) * axis2.through[0] + Math.sin(zeros[0]) * axis2.through[1];
-  if (ahead < -ROUNDING || (ahead < ROUNDING && Math.abs(zeros[0]) > Math.PI / 2 + ROUNDING))
-    zeros[0] = wrapAngle(zeros[0] + Math.PI);
+  zeros[0] = headingOf(axis2);
   const heading = fromAxisAngle(Z, zeros[0]);
   const inArm = (v: Vector3): Vector3 => rotate([-heading[0], -heading[1], -heading[2], heading[3]], v);
   signs[1] = Math.sign(inArm(axis2.along)[1]);
@@ -102,6 +92,30 @@ export function orthoParallelFromArm(arm: SerialArm): OrthoParallelGeometry | nu
     formulaFromFlange: tidy(compose(inverse(formulaFlange), flange)),
   };
   return agrees(arm, geometry) ? geometry : null;
+}
+
+/** Where axes 4, 5 and 6 meet, in the base; undefined unless axes 1 to 4 are as `orthoParallelFromArm` wants them. */
+function wristCentreOf([axis1, axis2, axis3, axis4, axis5, axis6]: SixAxes): Vector3 | undefined {
+  const upright =
+    Math.abs(Math.abs(axis1.along[2]) - 1) < ROUNDING && Math.hypot(axis1.through[0], axis1.through[1]) < ROUNDING;
+  const level =
+    Math.abs(axis2.along[2]) < ROUNDING &&
+    norm(cross(axis2.along, axis3.along)) < ROUNDING &&
+    Math.abs(dot(axis3.along, axis4.along)) < ROUNDING;
+  if (!upright || !level) return undefined;
+  const wrist = meeting(axis4, axis5);
+  return wrist && distanceFrom(axis6, wrist) <= ROUNDING ? wrist : undefined;
+}
+
+/**
+ * θ1 at the robot's zero, from axis 2 = s2 · Rz(θ1) ŷ: of the two headings the one with the shoulder in front, else the
+ * smaller.
+ */
+function headingOf(axis2: Line): number {
+  const heading = Math.atan2(-axis2.along[0], axis2.along[1]);
+  const ahead = Math.cos(heading) * axis2.through[0] + Math.sin(heading) * axis2.through[1];
+  const other = ahead < -ROUNDING || (ahead < ROUNDING && Math.abs(heading) > Math.PI / 2 + ROUNDING);
+  return other ? wrapAngle(heading + Math.PI) : heading;
 }
 
 /**

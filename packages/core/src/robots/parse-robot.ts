@@ -163,12 +163,30 @@ function jointOf(reader: Reader, value: unknown, index: number): Joint | undefin
   const axis = reader.numbers(file.axis, `${path}.axis`, `the axis of ${what}`, "", 3);
   if (axis !== undefined && !(norm(axis as Vector3) > 1e-6))
     reader.fault(`${path}.axis`, `the axis of ${what} has a direction; here it is 0, 0, 0.`);
+  const limits = jointLimitsOf(reader, file, path, what);
+  if (file.kind !== undefined && file.kind !== "revolute" && file.kind !== "prismatic")
+    reader.fault(
+      `${path}.kind`,
+      `the kind of ${what} is "revolute" or "prismatic"; here it is ${reader.shown(file.kind)}.`,
+    );
+  if (name === undefined || at === undefined || axis === undefined || limits === undefined) return undefined;
+  return {
+    name,
+    ...(file.kind === "prismatic" ? { kind: file.kind } : {}),
+    parentFromJoint: at,
+    axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
+    limits,
+  };
+}
+
+/** Range, speed, acceleration and torque of one joint; without an acceleration, the one that ramps up in `RAMP_S`. */
+function jointLimitsOf(reader: Reader, file: Fields, path: string, what: string): Joint["limits"] | undefined {
   const of = (key: string, unit: string): number | undefined =>
     reader.number(file[key], `${path}.${key}`, `the ${key} of ${what}`, unit);
   const lower_rad = of("lower_rad", "rad");
   const upper_rad = of("upper_rad", "rad");
   const speed_rad_s = of("speed_rad_s", "rad/s");
-  const acceleration =
+  const acceleration_rad_s2 =
     file.acceleration_rad_s2 === undefined ? (speed_rad_s ?? 0) / RAMP_S : of("acceleration_rad_s2", "rad/s²");
   const torque_Nm = file.torque_Nm === undefined ? undefined : of("torque_Nm", "N m");
   if (lower_rad !== undefined && upper_rad !== undefined && !(lower_rad < upper_rad))
@@ -178,36 +196,20 @@ function jointOf(reader: Reader, value: unknown, index: number): Joint | undefin
     );
   if (speed_rad_s !== undefined && !(speed_rad_s > 0))
     reader.fault(`${path}.speed_rad_s`, `the speed of ${what} is above 0; here it is ${speed_rad_s}.`);
-  else if (acceleration !== undefined && !(acceleration > 0))
-    reader.fault(`${path}.acceleration_rad_s2`, `the acceleration of ${what} is above 0; here it is ${acceleration}.`);
-  if (file.kind !== undefined && file.kind !== "revolute" && file.kind !== "prismatic")
+  else if (acceleration_rad_s2 !== undefined && !(acceleration_rad_s2 > 0))
     reader.fault(
-      `${path}.kind`,
-      `the kind of ${what} is "revolute" or "prismatic"; here it is ${reader.shown(file.kind)}.`,
+      `${path}.acceleration_rad_s2`,
+      `the acceleration of ${what} is above 0; here it is ${acceleration_rad_s2}.`,
     );
   if (
-    name === undefined ||
-    at === undefined ||
-    axis === undefined ||
     lower_rad === undefined ||
     upper_rad === undefined ||
     speed_rad_s === undefined ||
-    acceleration === undefined
+    acceleration_rad_s2 === undefined
   )
     return undefined;
-  return {
-    name,
-    ...(file.kind === "prismatic" ? { kind: file.kind } : {}),
-    parentFromJoint: at,
-    axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
-    limits: {
-      lower_rad,
-      upper_rad,
-      speed_rad_s,
-      acceleration_rad_s2: acceleration,
-      ...(torque_Nm === undefined ? {} : { torque_Nm }),
-    },
-  };
+  const limits = { lower_rad, upper_rad, speed_rad_s, acceleration_rad_s2 };
+  return torque_Nm === undefined ? limits : { ...limits, torque_Nm };
 }
 
 /** A number that is not below 0, or nothing when the file leaves it out. */

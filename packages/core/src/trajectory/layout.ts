@@ -74,8 +74,8 @@ export interface Layout {
 }
 
 export interface LayoutOptions extends PlanOptions {
-  readonly onProgress?: (share: number) => void;
-  readonly cancelled?: () => boolean;
+  readonly onProgress?: ((share: number) => void) | undefined;
+  readonly cancelled?: (() => boolean) | undefined;
 }
 
 /** Twice round shows how the end of a loop goes into its beginning. */

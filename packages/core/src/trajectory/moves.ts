@@ -7,7 +7,7 @@ import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 /** What targets of steps refer to. */
 export interface PlanContext extends Pick<Program, "tools" | "frames"> {
   /** Where the robot stands in the cell; default: in its origin. */
-  readonly worldFromBase?: Pose<"world", "base">;
+  readonly worldFromBase?: Pose<"world", "base"> | undefined;
 }
 
 /** A move step with its frames and tool resolved to the robot's base. */

@@ -15,9 +15,9 @@ import { explainStop, type Stuck } from "./stop.ts";
 
 export interface PlanOptions {
   /** Posture the program starts from; the robot's home by default. */
-  readonly start_rad?: ArrayLike<number>;
+  readonly start_rad?: ArrayLike<number> | undefined;
   /** Where the robot stands in the cell. */
-  readonly worldFromBase?: Pose<"world", "base">;
+  readonly worldFromBase?: Pose<"world", "base"> | undefined;
   /** How far the TCP may be off a commanded path [m]. */
   readonly tolerance_m?: number;
   /** Time a gripper is given to close or open [s]. */

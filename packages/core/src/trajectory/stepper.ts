@@ -155,22 +155,7 @@ export class Stepper {
       }
       state.step = segment.step;
       if (segment.kind === "rest") {
-        state.gripperClosed = segment.gripperClosed;
-        state.rate = wanted;
-        if (this.stopping) {
-          state.kind = "stopped";
-          break;
-        }
-        if (wanted === 0) break;
-        if (this.waitFor !== undefined && !this.met(this.waitFor, left_s)) break;
-        const rest_s = segment.duration_s - this.t_s;
-        if (left_s < rest_s) {
-          this.t_s += left_s;
-          left_s = 0;
-        } else {
-          left_s -= rest_s;
-          this.leave();
-        }
+        left_s = this.rest(segment, wanted, left_s);
         continue;
       }
       if (this.searching(segment) && this.stands()) continue;
@@ -194,6 +179,26 @@ export class Stepper {
   /** Posture the arm has reached; lent. */
   get posture(): Float64Array {
     return this.q;
+  }
+
+  /** Stands for up to `left_s`; returns what is left of it, 0 where the arm is held, or waits on. */
+  private rest(segment: Extract<Segment, { kind: "rest" }>, wanted: number, left_s: number): number {
+    const state = this.state;
+    state.gripperClosed = segment.gripperClosed;
+    state.rate = wanted;
+    if (this.stopping) {
+      state.kind = "stopped";
+      return 0;
+    }
+    if (wanted === 0) return 0;
+    if (this.waitFor !== undefined && !this.met(this.waitFor, left_s)) return 0;
+    const rest_s = segment.duration_s - this.t_s;
+    if (left_s < rest_s) {
+      this.t_s += left_s;
+      return 0;
+    }
+    this.leave();
+    return left_s - rest_s;
   }
 
   /** Plays a motion for up to `left_s`; returns what is left of it. */

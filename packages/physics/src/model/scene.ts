@@ -38,63 +38,12 @@ export function sceneXml(scene: PhysicalScene, masses: DynamicsModel | undefined
   const meshes = [...arm.meshes];
   const parts = scene.objects.filter(({ role }) => role === "part");
   const fixtures = scene.objects.filter(({ role }) => role === "fixture");
-  const geoms = (object: PhysicalObject, name: string): string[] =>
-    solidGeoms(object.shape).map((geom, i) => {
-      const common = { name: `${name}g${i}`, mass: 0, ...surface(object) };
-      switch (geom.kind) {
-        case "box":
-          return element("geom", {
-            ...common,
-            type: "box",
-            size: geom.size_m.map(length => length / 2),
-            pos: geom.at_m,
-          });
-        case "sphere":
-          return element("geom", { ...common, type: "sphere", size: geom.radius_m, pos: geom.at_m, condim: 6 });
-        case "cylinder":
-          return element("geom", {
-            ...common,
-            type: "cylinder",
-            size: [geom.radius_m, geom.height_m / 2],
-            pos: geom.at_m,
-            condim: 6,
-          });
-        case "hull":
-          meshes.push(element("mesh", { name: `${name}m${i}`, vertex: geom.points_m, inertia: "convex" }));
-          return element("geom", { ...common, type: "mesh", mesh: `${name}m${i}` });
-      }
-    });
+  const geoms = (object: PhysicalObject, name: string): string[] => geomsOf(object, name, meshes);
   const belts = fixtures.filter(({ belt }) => belt !== undefined);
   const still = fixtures.filter(({ belt }) => belt === undefined);
   const world = [
-    ...(scene.floor_m === undefined
-      ? []
-      : [
-          element("geom", {
-            name: "floor",
-            type: "plane",
-            size: [20, 20, 0.1],
-            pos: [0, 0, scene.floor_m],
-            group: GROUP.fixture,
-            ...CONTACT.fixture,
-            friction: [FRICTION, SPIN_M, ROLL_M],
-            solref: [CONTACT_S, 1],
-          }),
-        ]),
-    ...scene.sensors.flatMap((sensor, i) =>
-      sensor.kind === "proximity"
-        ? [
-            element("geom", {
-              name: `sensor${i}`,
-              type: "sphere",
-              size: SENSOR_POINT_M,
-              pos: sensor.at_m,
-              group: GROUP.sensor,
-              ...CONTACT.none,
-            }),
-          ]
-        : [],
-    ),
+    ...floorOf(scene),
+    ...sensorPoints(scene),
     ...still.map((object, i) =>
       element("body", { name: `fixture${i}`, ...placed(object.worldFromObject) }, geoms(object, `f${i}`)),
     ),
@@ -127,26 +76,7 @@ export function sceneXml(scene: PhysicalScene, masses: DynamicsModel | undefined
           ),
         );
   return element("mujoco", { model: "twincell" }, [
-    element("compiler", {
-      angle: "radian",
-      autolimits: "false",
-      boundmass: 0,
-      balanceinertia: "false",
-      inertiafromgeom: "auto",
-      fusestatic: "false",
-    }),
-    element(
-      "option",
-      {
-        timestep: scene.step_s ?? PHYSICS_STEP_S,
-        gravity: [0, 0, -GRAVITY_MPS2],
-        integrator: "implicitfast",
-        cone: "elliptic",
-        impratio: 20,
-        iterations: 60,
-      },
-      [element("flag", { autoreset: "disable", multiccd: "enable" })],
-    ),
+    ...settings(scene.step_s ?? PHYSICS_STEP_S),
     element("size", { memory: "24M" }),
     element("asset", {}, meshes.length > 0 ? meshes : [element("material", { name: "none" })]),
     element("worldbody", {}, world),
@@ -154,6 +84,95 @@ export function sceneXml(scene: PhysicalScene, masses: DynamicsModel | undefined
     ...(arm.actuators.length > 0 ? [element("actuator", {}, arm.actuators)] : []),
     ...(touches.length > 0 ? [element("sensor", {}, touches)] : []),
   ]);
+}
+
+/** How the engine computes: angles in rad, elliptic friction cones, an implicit integrator with steps of `step_s`. */
+const settings = (step_s: number): string[] => [
+  element("compiler", {
+    angle: "radian",
+    autolimits: "false",
+    boundmass: 0,
+    balanceinertia: "false",
+    inertiafromgeom: "auto",
+    fusestatic: "false",
+  }),
+  element(
+    "option",
+    {
+      timestep: step_s,
+      gravity: [0, 0, -GRAVITY_MPS2],
+      integrator: "implicitfast",
+      cone: "elliptic",
+      impratio: 20,
+      iterations: 60,
+    },
+    [element("flag", { autoreset: "disable", multiccd: "enable" })],
+  ),
+];
+
+/** The floor as a plane, where the scene has one. */
+function floorOf({ floor_m }: PhysicalScene): string[] {
+  if (floor_m === undefined) return [];
+  return [
+    element("geom", {
+      name: "floor",
+      type: "plane",
+      size: [20, 20, 0.1],
+      pos: [0, 0, floor_m],
+      group: GROUP.fixture,
+      ...CONTACT.fixture,
+      friction: [FRICTION, SPIN_M, ROLL_M],
+      solref: [CONTACT_S, 1],
+    }),
+  ];
+}
+
+/** The balls from which proximity sensors measure; they touch nothing. Named by the sensor's place in the scene. */
+const sensorPoints = ({ sensors }: PhysicalScene): string[] =>
+  sensors.flatMap((sensor, i) =>
+    sensor.kind === "proximity"
+      ? element("geom", {
+          name: `sensor${i}`,
+          type: "sphere",
+          size: SENSOR_POINT_M,
+          pos: sensor.at_m,
+          group: GROUP.sensor,
+          ...CONTACT.none,
+        })
+      : [],
+  );
+
+/**
+ * The shapes of an object in its own frame; its mass is given apart from them.
+ *
+ * @param meshes  receives the meshes that hulls refer to.
+ */
+function geomsOf(object: PhysicalObject, name: string, meshes: string[]): string[] {
+  return solidGeoms(object.shape).map((geom, i) => {
+    const common = { name: `${name}g${i}`, mass: 0, ...surface(object) };
+    switch (geom.kind) {
+      case "box":
+        return element("geom", {
+          ...common,
+          type: "box",
+          size: geom.size_m.map(length => length / 2),
+          pos: geom.at_m,
+        });
+      case "sphere":
+        return element("geom", { ...common, type: "sphere", size: geom.radius_m, pos: geom.at_m, condim: 6 });
+      case "cylinder":
+        return element("geom", {
+          ...common,
+          type: "cylinder",
+          size: [geom.radius_m, geom.height_m / 2],
+          pos: geom.at_m,
+          condim: 6,
+        });
+      case "hull":
+        meshes.push(element("mesh", { name: `${name}m${i}`, vertex: geom.points_m, inertia: "convex" }));
+        return element("geom", { ...common, type: "mesh", mesh: `${name}m${i}` });
+    }
+  });
 }
 
 /** A surface that says its friction decides where it touches one that does not. */

@@ -239,7 +239,7 @@ export function AssignFields({ program, step }: { program: Program; step: Assign
           </span>
           {wrong !== undefined && (
             <p className="field-fault" role="alert">
-              {words.step.nameTaken(wrong)}
+              {words.step.variableNames[wrong]}
             </p>
           )}
         </div>

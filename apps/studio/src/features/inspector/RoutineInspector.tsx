@@ -98,7 +98,7 @@ export function RoutineInspector({ program, name }: { readonly program: Program;
             autoFocus
             fault={typed => {
               const why = typed === "" ? undefined : variableNameFault(typed, taken);
-              return why === undefined ? undefined : words.editor.nameWrong(why);
+              return why === undefined ? undefined : words.step.variableNames[why];
             }}
             onTake={parameter => {
               setNaming(false);

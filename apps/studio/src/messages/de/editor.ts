@@ -105,7 +105,6 @@ export const editor = {
   newParameterName: "Name des neuen Parameters",
   "removeParameter(name)": "Parameter {name} entfernen",
   parameterRead: "Die Routine liest ihn.",
-  "nameWrong(why)": "Der Parameter geht nicht: {why}.",
   nameTaken: "Eine Routine heißt schon so.",
   bring: "Anderes Programm übernehmen",
   "append(name)": "{name} anhängen",

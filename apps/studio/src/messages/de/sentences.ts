@@ -1,7 +1,9 @@
 import type { Sentences } from "../sentences.ts";
 import { saidByChecks } from "./said/checks.ts";
+import { saidByDrivers } from "./said/drivers.ts";
 import { saidByExport } from "./said/export.ts";
 import { saidByReaders } from "./said/files.ts";
+import { saidInRefusals } from "./said/refusals.ts";
 import { saidByRobots } from "./said/robots.ts";
 import { saidTogether } from "./said/together.ts";
 import { saidByTexts } from "./said/texts.ts";
@@ -14,6 +16,8 @@ export const sentences: Sentences = {
   ...saidByReaders,
   ...saidByTexts,
   ...saidByExport,
+  ...saidInRefusals,
+  ...saidByDrivers,
   ...saidByVision,
   ...saidTogether,
 };

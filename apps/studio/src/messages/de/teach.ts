@@ -46,7 +46,11 @@ export const teachWords = {
     goesOn: "Schritte",
     routineLabel: "Routine",
     "argument(name)": "Wert von {name}",
-    "nameTaken(why)": "Die Variable geht nicht: {why}.",
+    variableNames: {
+      form: "Ein Name hat Buchstaben, Ziffern und _, höchstens 24, und beginnt mit einem Buchstaben.",
+      keyword: "Dieser Name bedeutet in Ausdrücken etwas anderes: einen anderen wählen.",
+      taken: "Ein Signal oder eine Variable heißt schon so: einen anderen Namen wählen.",
+    },
     "if(condition)": "Wenn {condition}",
     else: "Sonst",
     input: "Eingang 1",

@@ -102,7 +102,6 @@ export const editor = {
   newParameterName: "Name of the new parameter",
   "removeParameter(name)": "Take parameter {name} away",
   parameterRead: "The routine reads it.",
-  "nameWrong(why)": "The parameter {why}.",
   nameTaken: "There is a routine of that name.",
   bring: "Bring in another program",
   "append(name)": "Append {name}",

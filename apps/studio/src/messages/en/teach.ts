@@ -42,7 +42,11 @@ export const teachWords = {
     goesOn: "do steps",
     routineLabel: "Routine",
     "argument(name)": "Value of {name}",
-    "nameTaken(why)": "The variable {why}.",
+    variableNames: {
+      form: "A name has letters, digits and _, 24 at most, and begins with a letter.",
+      keyword: "This name means something else in expressions: choose another.",
+      taken: "A signal or a variable has this name already: choose another.",
+    },
     "if(condition)": "If {condition}",
     else: "Otherwise",
     input: "Input 1",

@@ -60,12 +60,7 @@ export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Des
       if (scratch.position_m < aim.position_m && (w2 === 0 || scratch.angle_rad < aim.angle_rad)) return true;
       cost = costOf(error, w2);
       largest = normalEquations(rows, error, w2, n, normal, uphill);
-      for (let j = 0; j < n; j++) {
-        const { lower_rad, upper_rad } = arm.joints[j]!.limits;
-        const push = uphill[j]!;
-        pressed[j] =
-          (push > 0 && q[j]! >= upper_rad - AT_LIMIT_RAD) || (push < 0 && q[j]! <= lower_rad + AT_LIMIT_RAD) ? 1 : 0;
-      }
+      findPressed(arm, q, uphill, pressed);
       if (damping === 0) damping = FIRST_DAMPING * largest;
       if (!(largest > 0) || inPlace >= STEPS_IN_PLACE) return false;
     }
@@ -92,6 +87,16 @@ export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Des
       damping *= growth;
       growth *= 2;
     }
+  }
+}
+
+/** pressed[j] = 1 where joint j is at a limit and the downhill direction pushes it on against that. */
+function findPressed(arm: SerialArm, q: Float64Array, uphill: Float64Array, pressed: Uint8Array): void {
+  for (let j = 0; j < q.length; j++) {
+    const { lower_rad, upper_rad } = arm.joints[j]!.limits;
+    const push = uphill[j]!;
+    pressed[j] =
+      (push > 0 && q[j]! >= upper_rad - AT_LIMIT_RAD) || (push < 0 && q[j]! <= lower_rad + AT_LIMIT_RAD) ? 1 : 0;
   }
 }
 

@@ -75,6 +75,27 @@ function operated(op: Extract<Expression, { readonly op: unknown }>["op"], parts
       return truthOf(first) || truthOf(second);
     case "neg":
       return 0 - a;
+    case "+":
+      return a + b;
+    case "-":
+      return a - b;
+    case "*":
+      return a * b;
+    case "/":
+    case "div":
+    case "mod":
+      return b === 0 ? "A number is divided by zero." : divided(op, a, b);
+    default:
+      return compared(op, a, b);
+  }
+}
+
+/** Adding 0 makes a zero of a negative number the ordinary zero. */
+const divided = (op: "/" | "div" | "mod", a: number, b: number): number =>
+  op === "/" ? a / b : (op === "div" ? Math.trunc(a / b) : a % b) + 0;
+
+function compared(op: "=" | "<>" | "<" | "<=" | ">" | ">=", a: number, b: number): boolean {
+  switch (op) {
     case "=":
       return a === b;
     case "<>":
@@ -87,18 +108,6 @@ function operated(op: Extract<Expression, { readonly op: unknown }>["op"], parts
       return a > b;
     case ">=":
       return a >= b;
-    case "+":
-      return a + b;
-    case "-":
-      return a - b;
-    case "*":
-      return a * b;
-    case "/":
-      return b === 0 ? "A number is divided by zero." : a / b;
-    case "div":
-      return b === 0 ? "A number is divided by zero." : Math.trunc(a / b) + 0;
-    case "mod":
-      return b === 0 ? "A number is divided by zero." : (a % b) + 0;
   }
 }
 

@@ -140,13 +140,7 @@ function ofOperator(op: OperatorExpression["op"], types: readonly Inferred[], at
       return a;
     case "=":
     case "<>":
-      if (a.type === "any" || b.type === "any" || a.type === b.type) {
-        if (a.type !== "num" && b.type !== "num") return { type: "bool" };
-      }
-      throw new Mismatch(
-        at,
-        `“${op}” compares whole numbers, or what is yes or no; here are ${shown(a)} and ${shown(b)}. Compare other numbers by < or >.`,
-      );
+      return ofEquality(op, a, b, at);
     case "<":
     case "<=":
     case ">":
@@ -167,6 +161,16 @@ function ofOperator(op: OperatorExpression["op"], types: readonly Inferred[], at
       });
       return { type: "int" };
   }
+}
+
+/** Numbers that are measured are hardly ever equal: only whole numbers and yes or no are compared so. */
+function ofEquality(op: "=" | "<>", a: Inferred, b: Inferred, at: readonly number[]): Inferred {
+  const alikeEnough = a.type === "any" || b.type === "any" || a.type === b.type;
+  if (alikeEnough && a.type !== "num" && b.type !== "num") return { type: "bool" };
+  throw new Mismatch(
+    at,
+    `“${op}” compares whole numbers, or what is yes or no; here are ${shown(a)} and ${shown(b)}. Compare other numbers by < or >.`,
+  );
 }
 
 function ofCall(

@@ -50,15 +50,7 @@ function readPallet(
       "order",
     ),
   );
-  const frame =
-    fields.frame === undefined
-      ? "world"
-      : (reader.name(fields.frame, `${path}.frame`, `the frame of ${what}`) ?? "world");
-  if (frame !== "world" && !Object.hasOwn(frames, frame))
-    reader.fault(
-      `${path}.frame`,
-      `${what} stands in the frame “${frame}”, which the program does not have; it has ${["world", ...Object.keys(frames)].join(", ")}.`,
-    );
+  const frame = readFrame(reader, fields.frame, `${path}.frame`, what, frames);
   const origin = reader.pose<"frame", "place">(fields.origin, `${path}.origin`, `the first place of ${what}`);
   const rowEnd = reader.numbers(fields.rowEnd, `${path}.rowEnd`, `the end of the first row of ${what}`, "m", 3);
   const columnEnd = reader.numbers(
@@ -68,6 +60,51 @@ function readPallet(
     "m",
     3,
   );
+  const size = readSize(reader, fields, path, what);
+  const interleave = oneOf(reader, fields.interleave, PALLET_PATTERNS, `${path}.interleave`, `the pattern of ${what}`);
+  const order = oneOf(reader, fields.order, PALLET_ORDERS, `${path}.order`, `the order of ${what}`);
+  if (interleave === "odd-rows-shifted" && size !== undefined && size.columns < 2)
+    reader.fault(
+      `${path}.columns`,
+      `${what} has shifted rows, which have one place fewer; it needs 2 columns or more.`,
+    );
+  if (origin === undefined || rowEnd === undefined || columnEnd === undefined || size === undefined) return undefined;
+  return {
+    frame,
+    origin,
+    rowEnd: rowEnd as Vector3,
+    columnEnd: columnEnd as Vector3,
+    ...size,
+    ...(interleave === undefined ? {} : { interleave }),
+    ...(order === undefined ? {} : { order }),
+  };
+}
+
+/** The frame a pallet stands in; the world where none is named. */
+function readFrame(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  what: string,
+  frames: Readonly<Record<string, unknown>>,
+): string {
+  if (value === undefined) return "world";
+  const frame = reader.name(value, path, `the frame of ${what}`) ?? "world";
+  if (frame !== "world" && !Object.hasOwn(frames, frame))
+    reader.fault(
+      path,
+      `${what} stands in the frame “${frame}”, which the program does not have; it has ${["world", ...Object.keys(frames)].join(", ")}.`,
+    );
+  return frame;
+}
+
+/** Rows, columns and layers with their height: one layer where none is told. */
+function readSize(
+  reader: Reader,
+  fields: Fields,
+  path: string,
+  what: string,
+): Pick<Pallet, "rows" | "columns" | "layers" | "layer_m"> | undefined {
   const rows = count(reader, fields.rows, `${path}.rows`, `the number of rows of ${what}`);
   const columns = count(reader, fields.columns, `${path}.columns`, `the number of columns of ${what}`);
   const layers =
@@ -76,37 +113,10 @@ function readPallet(
     fields.layer_m === undefined
       ? 0
       : reader.number(fields.layer_m, `${path}.layer_m`, `the height of a layer of ${what}`, "m");
-  const interleave = oneOf(reader, fields.interleave, PALLET_PATTERNS, `${path}.interleave`, `the pattern of ${what}`);
-  const order = oneOf(reader, fields.order, PALLET_ORDERS, `${path}.order`, `the order of ${what}`);
-  if (interleave === "odd-rows-shifted" && columns !== undefined && columns < 2)
-    reader.fault(
-      `${path}.columns`,
-      `${what} has shifted rows, which have one place fewer; it needs 2 columns or more.`,
-    );
-  if (rows !== undefined && columns !== undefined && layers !== undefined && rows * columns * layers > MOST_PLACES)
+  if (rows === undefined || columns === undefined || layers === undefined) return undefined;
+  if (rows * columns * layers > MOST_PLACES)
     reader.fault(path, `${what} has ${rows * columns * layers} places; ${MOST_PLACES} are the most.`);
-  if (
-    origin === undefined ||
-    rowEnd === undefined ||
-    columnEnd === undefined ||
-    rows === undefined ||
-    columns === undefined ||
-    layers === undefined ||
-    layer_m === undefined
-  )
-    return undefined;
-  return {
-    frame,
-    origin,
-    rowEnd: rowEnd as Vector3,
-    columnEnd: columnEnd as Vector3,
-    rows,
-    columns,
-    layers,
-    layer_m,
-    ...(interleave === undefined ? {} : { interleave }),
-    ...(order === undefined ? {} : { order }),
-  };
+  return layer_m === undefined ? undefined : { rows, columns, layers, layer_m };
 }
 
 function count(reader: Reader, value: unknown, path: string, what: string): number | undefined {

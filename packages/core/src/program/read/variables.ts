@@ -63,14 +63,29 @@ export function readParameters(
   return Object.fromEntries(entries);
 }
 
-/** Why a name cannot be that of a variable; undefined when it can. `taken`: names of signals and other variables. */
-export function variableNameFault(name: string, taken: Readonly<Record<string, unknown>>): string | undefined {
-  if (!NAME.test(name)) return "has a name of letters, digits and _, 24 at most, that begins with a letter";
-  if (KEYWORDS.has(name.toLowerCase())) return "has a name that means something else in expressions";
-  if (Object.keys(taken).some(other => other.toLowerCase() === name.toLowerCase()))
-    return "has a name that is taken; a signal or another variable has it";
-  return undefined;
+/** Why a name cannot be a variable's: not every language can say it, expressions have the word, it is taken. */
+export type VariableNameFault = "form" | "keyword" | "taken";
+
+/**
+ * Why a name cannot be that of a variable; undefined when it can. A code, for whoever asks to put into words.
+ *
+ * @param taken  names of signals and other variables; upper and lower case are the same.
+ */
+export function variableNameFault(
+  name: string,
+  taken: Readonly<Record<string, unknown>>,
+): VariableNameFault | undefined {
+  if (!NAME.test(name)) return "form";
+  if (KEYWORDS.has(name.toLowerCase())) return "keyword";
+  return Object.keys(taken).some(other => other.toLowerCase() === name.toLowerCase()) ? "taken" : undefined;
 }
+
+/** What is said of a variable in a file whose name cannot be one. */
+const OF_NAME: Readonly<Record<VariableNameFault, string>> = {
+  form: "has a name of letters, digits and _, 24 at most, that begins with a letter",
+  keyword: "has a name that means something else in expressions",
+  taken: "has a name that is taken; a signal or another variable has it",
+};
 
 function named(
   reader: Reader,
@@ -80,7 +95,7 @@ function named(
   taken: Readonly<Record<string, unknown>>,
 ): void {
   const fault = variableNameFault(name, taken);
-  if (fault !== undefined) reader.fault(path, `${what} ${fault}.`);
+  if (fault !== undefined) reader.fault(path, `${what} ${OF_NAME[fault]}.`);
 }
 
 function readInitial(reader: Reader, value: unknown, path: string, what: string, type: ValueType): Value | undefined {

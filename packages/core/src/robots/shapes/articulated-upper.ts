@@ -14,7 +14,6 @@ export function elbow(at: Standing): LinkDesign {
   const s = at.size;
   const x = at.elbow.x;
   const z = at.elbow.z;
-  const reach = at.wrist.x - x;
   const origin: Vector3 = [x, 0, z];
   const axis4: Vector3 = [at.wrist.x, 0, z];
   const drum = prism(
@@ -98,32 +97,42 @@ export function elbow(at: Standing): LinkDesign {
       ),
       part("bolts", "metal", bolts(farSide([x, 0.0875 * s, z]), 8, 0.074 * s, 0.0052 * s, 0.005 * s)),
     ],
-    shells: [
-      shell(sideways(origin), circle(0.0915 * s, 16, "around"), -0.101 * s, (INNER_FACE_M + 0.005) * s),
-      shell(
-        upright(axis4),
-        roundedRectangle(0.0795 * s, 0.0765 * s, 0.02 * s, [0, 0], 1, "around"),
-        -0.0985 * s,
-        0.143 * s,
-      ),
-      shell(
-        upright(axis4),
-        roundedRectangle(0.061 * s, 0.057 * s, 0.014 * s, [0, 0], 1, "around"),
-        -0.129 * s,
-        -0.09 * s,
-      ),
-      ...(reach === 0
-        ? []
-        : [
-            shell(
-              upright([x, 0, z]),
-              roundedRectangle(Math.abs(reach) + 0.0795 * s, 0.0765 * s, 0.02 * s, [0, 0], 1, "around"),
-              -0.0985 * s,
-              0.09 * s,
-            ),
-          ]),
-    ],
+    shells: elbowShells(at),
   };
+}
+
+/** Convex shells around drum and neck, and around the piece between axis 3 and axis 4 where these are apart. */
+function elbowShells(at: Standing): LinkDesign["shells"] {
+  const s = at.size;
+  const { x, z } = at.elbow;
+  const reach = at.wrist.x - x;
+  const origin: Vector3 = [x, 0, z];
+  const axis4: Vector3 = [at.wrist.x, 0, z];
+  return [
+    shell(sideways(origin), circle(0.0915 * s, 16, "around"), -0.101 * s, (INNER_FACE_M + 0.005) * s),
+    shell(
+      upright(axis4),
+      roundedRectangle(0.0795 * s, 0.0765 * s, 0.02 * s, [0, 0], 1, "around"),
+      -0.0985 * s,
+      0.143 * s,
+    ),
+    shell(
+      upright(axis4),
+      roundedRectangle(0.061 * s, 0.057 * s, 0.014 * s, [0, 0], 1, "around"),
+      -0.129 * s,
+      -0.09 * s,
+    ),
+    ...(reach === 0
+      ? []
+      : [
+          shell(
+            upright([x, 0, z]),
+            roundedRectangle(Math.abs(reach) + 0.0795 * s, 0.0765 * s, 0.02 * s, [0, 0], 1, "around"),
+            -0.0985 * s,
+            0.09 * s,
+          ),
+        ]),
+  ];
 }
 
 /** The tapered tube that turns about its own axis, ending in the fork of the wrist. */
@@ -163,35 +172,8 @@ export function forearm(at: Standing): LinkDesign {
       ] as const
     ).map(([w, u, v, r]) => ({ points: roundedRectangle(u * s, v * s, r * s)(0), w_m: w * s })),
   );
-  const plate = (frame: Frame, foot: Point2): ReturnType<typeof prism> =>
-    prism(
-      frame,
-      stadium(foot, 0.039 * s, [0, 0], 0.0425 * s, 16),
-      filleted(
-        sized(s, [
-          [0.01, FORK_INNER_M],
-          [0, FORK_INNER_M],
-          [0, FORK_OUTER_M],
-          [0.014, FORK_OUTER_M],
-        ]),
-        0.006 * s,
-      ),
-    );
   const low = sideways(wrist);
   const high = farSide(wrist);
-  const hub = (frame: Frame): ReturnType<typeof prism> =>
-    revolve(
-      frame,
-      filleted(
-        sized(s, [
-          [0.027, FORK_OUTER_M - 0.002],
-          [0.027, FORK_OUTER_M + 0.007],
-          [0.014, FORK_OUTER_M + 0.007],
-        ]),
-        0.003 * s,
-      ),
-      32,
-    );
   const stripe = prism(
     upright([at.wrist.x + 0.0705 * s, 0, at.wrist.z + start + 0.0275 * s]),
     roundedRectangle(0.0045 * s, 0.007 * s, 0.003 * s, [0, 0], 3),
@@ -203,8 +185,8 @@ export function forearm(at: Standing): LinkDesign {
   return {
     parts: [
       part("forearm", "casting", tube),
-      part("fork", "dark", hand, plate(low, [0, -0.12 * s]), plate(high, [-0.12 * s, 0])),
-      part("hubs", "metal", hub(low), hub(high)),
+      part("fork", "dark", hand, forkPlate(low, s, [0, -0.12 * s]), forkPlate(high, s, [-0.12 * s, 0])),
+      part("hubs", "metal", forkHub(low, s), forkHub(high, s)),
       part("mark of axis 4", "mark", stripe),
     ],
     shells: [
@@ -236,6 +218,39 @@ export function forearm(at: Standing): LinkDesign {
       ),
     ],
   };
+}
+
+/** One of the two plates that hold the wrist, for a robot of size `s`. */
+function forkPlate(frame: Frame, s: number, foot: Point2): ReturnType<typeof prism> {
+  return prism(
+    frame,
+    stadium(foot, 0.039 * s, [0, 0], 0.0425 * s, 16),
+    filleted(
+      sized(s, [
+        [0.01, FORK_INNER_M],
+        [0, FORK_INNER_M],
+        [0, FORK_OUTER_M],
+        [0.014, FORK_OUTER_M],
+      ]),
+      0.006 * s,
+    ),
+  );
+}
+
+/** The cover of the bearing on one of these plates. */
+function forkHub(frame: Frame, s: number): ReturnType<typeof prism> {
+  return revolve(
+    frame,
+    filleted(
+      sized(s, [
+        [0.027, FORK_OUTER_M - 0.002],
+        [0.027, FORK_OUTER_M + 0.007],
+        [0.014, FORK_OUTER_M + 0.007],
+      ]),
+      0.003 * s,
+    ),
+    32,
+  );
 }
 
 /** The short piece between the plates of the fork that axis 5 bends. */

@@ -8,6 +8,18 @@ export const PHASE_JERK: Readonly<Float64Array> = Float64Array.of(1, 0, -1, 0, -
 /** Accelerations beyond their bounds by this share of the limit are rounding. */
 const ROUNDING = 1e-9;
 
+/** Kept between the steps of one call: what is known of the profile (W, K, c₀, c₂) and what is found (the rest). */
+const PROFILE = new Float64Array(9);
+const WHOLE = 0;
+const RISE = 1;
+const START = 2;
+const END = 3;
+const HIGHEST = 4;
+const LOWEST = 5;
+const HOLD_1 = 6;
+const HOLD_2 = 7;
+const PEAK = 8;
+
 /**
  * The farthest way an axis can come in a given time, all limits kept and the end state met.
  *
@@ -33,67 +45,35 @@ export function farthest(task: AxisTask, sign: 1 | -1, time_s: number, out: Floa
   const a1 = sign * task.a1;
   const c0 = sign * task.v0 - (a0 * a0) / (2 * j);
   const c2 = sign * task.v1 - (a1 * a1) / (2 * j);
-  const K = j * (c2 - c0);
   let W = j * time_s + a0 - a1;
   const slack = ROUNDING * A;
   if (W < 0) {
     if (W < -slack) return Number.NaN;
     W = 0;
   }
-  let x: number;
-  let y: number;
-  let c1: number;
-  let hold1 = 0;
-  let hold2 = 0;
-  let cruise = 0;
   const X2 = j * Math.max(0, V - c0);
   const Z2 = j * Math.max(0, V - c2);
   const A2 = A * A;
   const toV = (X2 <= A2 ? 2 * Math.sqrt(X2) : A + X2 / A) + (Z2 <= A2 ? 2 * Math.sqrt(Z2) : A + Z2 / A);
+  const cruise = Math.max(0, W - toV);
   if (W >= toV) {
-    cruise = W - toV;
-    c1 = V;
-    if (X2 <= A2) x = Math.sqrt(X2);
-    else {
-      x = A;
-      hold1 = (X2 - A2) / A;
-    }
-    if (Z2 <= A2) y = -Math.sqrt(Z2);
-    else {
-      y = -A;
-      hold2 = (Z2 - A2) / A;
-    }
+    PROFILE[HIGHEST] = X2 <= A2 ? Math.sqrt(X2) : A;
+    PROFILE[HOLD_1] = X2 <= A2 ? 0 : (X2 - A2) / A;
+    PROFILE[LOWEST] = Z2 <= A2 ? -Math.sqrt(Z2) : -A;
+    PROFILE[HOLD_2] = Z2 <= A2 ? 0 : (Z2 - A2) / A;
+    PROFILE[PEAK] = V;
   } else {
-    const h = W / 2;
-    if (h > 0) {
-      const k = K / h;
-      x = (h + k) / 2;
-      y = (k - h) / 2;
-    } else x = y = Math.abs(K) <= slack * A ? Math.min(a1, Math.max(a0, 0)) : Number.NaN;
-    // The end with the lower c has the larger acceleration and meets its limit first.
-    if (K >= 0 && x > A) {
-      y = A - Math.sqrt(Math.max(0, A * W - K));
-      x = A;
-      hold1 = W - 2 * (A - y);
-      if (y < -A) {
-        y = -A;
-        c1 = peakOfBoth(W, c0, c2, A, j);
-        hold1 = (j * (c1 - c0) - A2) / A;
-        hold2 = (j * (c1 - c2) - A2) / A;
-      }
-    } else if (K < 0 && y < -A) {
-      x = Math.sqrt(Math.max(0, A * W + K)) - A;
-      y = -A;
-      hold2 = W - 2 * (x + A);
-      if (x > A) {
-        x = A;
-        c1 = peakOfBoth(W, c0, c2, A, j);
-        hold1 = (j * (c1 - c0) - A2) / A;
-        hold2 = (j * (c1 - c2) - A2) / A;
-      }
-    }
-    c1 = c0 + (x * x + A * hold1) / j;
+    PROFILE[WHOLE] = W;
+    PROFILE[RISE] = j * (c2 - c0);
+    PROFILE[START] = c0;
+    PROFILE[END] = c2;
+    belowTopSpeed(task, sign);
   }
+  const x = PROFILE[HIGHEST]!;
+  const y = PROFILE[LOWEST]!;
+  const c1 = PROFILE[PEAK]!;
+  const hold1 = PROFILE[HOLD_1]!;
+  const hold2 = PROFILE[HOLD_2]!;
   if (!(x >= a0 - slack && y <= a1 + slack && x >= y - slack && hold1 >= -slack && hold2 >= -slack)) return Number.NaN;
   const split = cruise > 0 || (x > 0 && y < 0) ? 0 : y;
   out[0] = (x - a0) / j;
@@ -113,6 +93,53 @@ export function farthest(task: AxisTask, sign: 1 | -1, time_s: number, out: Floa
       cruise * V) /
     j
   );
+}
+
+/** The cases in which the top speed is not reached: no acceleration held, one or both. */
+function belowTopSpeed({ jerk: j, acceleration: A, a0, a1 }: AxisTask, sign: 1 | -1): void {
+  const W = PROFILE[WHOLE]!;
+  const K = PROFILE[RISE]!;
+  const c0 = PROFILE[START]!;
+  const c2 = PROFILE[END]!;
+  const h = W / 2;
+  let x: number;
+  let y: number;
+  let hold1 = 0;
+  let hold2 = 0;
+  if (h > 0) {
+    const k = K / h;
+    x = (h + k) / 2;
+    y = (k - h) / 2;
+  } else {
+    // No time to change the acceleration: it may stay anywhere between its two ends.
+    x = Math.abs(K) <= ROUNDING * A * A ? Math.min(sign * a1, Math.max(sign * a0, 0)) : Number.NaN;
+    y = x;
+  }
+  // The end with the lower c has the larger acceleration and meets its limit first.
+  const highFirst = K >= 0 && x > A;
+  const lowFirst = K < 0 && y < -A;
+  if (highFirst) {
+    y = A - Math.sqrt(Math.max(0, A * W - K));
+    x = A;
+    hold1 = W - 2 * (A - y);
+  } else if (lowFirst) {
+    x = Math.sqrt(Math.max(0, A * W + K)) - A;
+    y = -A;
+    hold2 = W - 2 * (x + A);
+  }
+  PROFILE[PEAK] = c0 + (x * x + A * hold1) / j;
+  if ((highFirst && y < -A) || (lowFirst && x > A)) {
+    x = A;
+    y = -A;
+    const c1 = peakOfBoth(W, c0, c2, A, j);
+    hold1 = (j * (c1 - c0) - A * A) / A;
+    hold2 = (j * (c1 - c2) - A * A) / A;
+    PROFILE[PEAK] = c0 + (x * x + A * hold1) / j;
+  }
+  PROFILE[HIGHEST] = x;
+  PROFILE[LOWEST] = y;
+  PROFILE[HOLD_1] = hold1;
+  PROFILE[HOLD_2] = hold2;
 }
 
 /** c₁ when both accelerations are held: W = 2A + j (2 c₁ − c₀ − c₂) / A. */

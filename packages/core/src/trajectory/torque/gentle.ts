@@ -35,7 +35,10 @@ export class Gentler {
     {
       withinTorque,
       worldFromBase,
-    }: { readonly withinTorque?: { readonly payload?: Payload }; readonly worldFromBase?: Pose<"world", "base"> },
+    }: {
+      readonly withinTorque?: { readonly payload?: Payload };
+      readonly worldFromBase?: Pose<"world", "base"> | undefined;
+    },
   ) {
     this.robot = robot;
     this.known = withinTorque === undefined ? undefined : torqueModel(robot, worldFromBase);
