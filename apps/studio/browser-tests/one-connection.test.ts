@@ -1,4 +1,4 @@
-import { identity } from "@twincell/core";
+import { identity, type MoveStep } from "@twincell/core";
 import { saveDocument, tracedCartonCell, type CellDocument } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -277,3 +277,92 @@ for (const [maker, option, robot] of [
     expect(problems).toEqual([]);
     await page.context().close();
   }, 240_000);
+
+test("T-53 X-56 the Run panel: a program runs cycle after cycle, is held before a step, stepped, jogged by hand and handed back; a changed program takes over at the next cycle", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  const empty = cellOf("yaskawa_gp8");
+  const step = (id: string, name: string, turn_rad: number): MoveStep => ({
+    id,
+    name,
+    type: "move",
+    path: "ptp",
+    target: { q: [turn_rad, 0.1, 0, 0, -0.5, 0] },
+    speed: { ratio: 0.5 },
+    blend_m: 0,
+  });
+  const steps = [step("a", "First", 0.2), step("b", "Second", 0.4), step("c", "Third", 0.1)];
+  const cell: CellDocument = { ...empty, programs: [{ ...empty.programs[0]!, steps } as CellDocument["programs"][0]] };
+  await page.evaluate(text => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    return window.twincell.document.open(text, "cell.json");
+  }, saveDocument(cell));
+  await page.getByRole("combobox", { name: "Connection" }).click();
+  await page.getByRole("option", { name: "Virtual: Yaskawa" }).click();
+  await page.waitForFunction(
+    () => window.twincell.stores.stationStore.getState().stations[0]?.link.state === "open",
+    null,
+    { timeout: 60_000 },
+  );
+  await stands(page);
+  await page.getByRole("radio", { name: "Run" }).click();
+  const panel = page.getByRole("group", { name: "Cycle after cycle" });
+  const says = (words: string) =>
+    panel.getByTestId("production-state").filter({ hasText: words }).waitFor({ timeout: 90_000 });
+  const choose = (id: string) =>
+    page.evaluate(step => window.twincell.stores.selectionStore.setState({ selected: { kind: "step", id: step } }), id);
+  await panel.getByRole("button", { name: "Select a step to hold before it" }).waitFor();
+  await choose("b");
+  await panel.getByRole("button", { name: "Hold before Second" }).click();
+  await panel.getByRole("radio", { name: "Several times" }).click();
+  await panel.getByLabel("Cycles").fill("2");
+  await panel.getByLabel("Cycles").press("Enter");
+  await panel.getByRole("button", { name: "Begin" }).click();
+  await says("Cycle 1 of 2 is held before: Second");
+  await page.screenshot({ path: picture("production-held") });
+  await panel.getByRole("button", { name: "One step" }).click();
+  await says("Cycle 1 of 2 is held before: Third");
+  expect((await reported(page))[0]).toBeCloseTo(0.4, 3);
+
+  // The second cycle has two steps, without a place to hold: what takes over was checked before.
+  await choose("c");
+  await page.evaluate(() => window.twincell.run("program.delete"));
+  await panel.getByRole("button", { name: "Use the changed program from the next cycle" }).click();
+  await panel.getByText("“Taught” takes over at the next cycle.").waitFor({ timeout: 90_000 });
+  await panel.getByRole("button", { name: "No longer held before Second" }).click();
+
+  // Taken over by hand, from the pendant, and handed back with the step it was in.
+  await page.getByRole("radio", { name: "Teach" }).click();
+  await page.getByRole("radio", { name: "Joint", exact: true }).click();
+  const from = (await reported(page))[0]!;
+  await page.keyboard.down("Space");
+  await page.waitForFunction(() => window.twincell.stores.connectionStore.getState().enabled);
+  await page.getByRole("button", { name: "Jog J1 up" }).hover();
+  await page.mouse.down();
+  await page.waitForFunction(at => window.twincell.live.shown().q_rad[0]! - at > 0.05, from, {
+    timeout: 30_000,
+    polling: 30,
+  });
+  await page.mouse.up();
+  await page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations[0]?.moving === false);
+  await page.keyboard.up("Space");
+  await page.getByRole("radio", { name: "Run" }).click();
+  await says("Cycle 1 of 2 is held before");
+  await panel.getByRole("button", { name: "Hand back" }).click();
+  await page.waitForFunction(
+    () => {
+      const [run] = window.twincell.stores.historyStore.getState().runs;
+      return run !== undefined && run.ending !== "running";
+    },
+    null,
+    { timeout: 90_000, polling: 100 },
+  );
+  await stands(page);
+  expect(await page.evaluate(() => window.twincell.stores.historyStore.getState().runs.map(run => run.ending))).toEqual(
+    ["done"],
+  );
+  expect((await reported(page))[0]).toBeCloseTo(0.4, 3);
+  await panel.getByRole("button", { name: "Begin" }).waitFor();
+  expect(problems).toEqual([]);
+  await page.context().close();
+}, 240_000);

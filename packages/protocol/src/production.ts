@@ -233,8 +233,9 @@ export function createProduction(
       });
     },
     hold() {
-      if (state !== "running") return DONE;
-      holding = true;
+      if (state === "ended") return DONE;
+      // Held already: what a person moves by hand stops, and the place is kept.
+      if (state === "running") holding = true;
       station.stop(false);
       return DONE;
     },

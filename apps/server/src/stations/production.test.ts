@@ -156,6 +156,25 @@ describe.each(Object.keys(ROBOTS))("a production on a virtual controller of %s",
     expect(acts).toContain("operator: hands back to the production");
   });
 
+  test("X-56 a motion by hand is ended by holding once more: the robot stands, the place is kept and the run goes on from it", async () => {
+    const { ask, begin, until, at, program, states, last, produce, off_rad } = await bench(brand);
+    const going = begin(produce(program("p", [0.5, 0.2]), { cycles: 1 }));
+    await until(() => last().moving);
+    expect(await ask({ type: "intervene", station: "s" })).toEqual(DONE);
+    await until(() => states().at(-1)?.state === "held" && !last().moving);
+    const byHand = begin({ type: "move", station: "s", q_rad: at(-0.6) });
+    await until(() => last().moving);
+    expect(await ask({ type: "intervene", station: "s" })).toEqual(DONE);
+    await until(() => byHand.outcome !== undefined && !last().moving);
+    expect(byHand.outcome).toMatchObject({ kind: "stopped" });
+    expect(off_rad(at(-0.6))).toBeGreaterThan(0.05);
+    expect(states().at(-1)).toMatchObject({ state: "held", cycle: 1 });
+    expect(await ask({ type: "resume", station: "s", from: "step" })).toEqual(DONE);
+    await until(() => going.outcome !== undefined);
+    expect(going.outcome).toEqual(DONE);
+    expect(off_rad(at(0.2))).toBeLessThan(TENTH_OF_MILLIDEGREE_RAD);
+  });
+
   test("a held production is over after a STOP: nothing resumes it", async () => {
     const { ask, begin, until, program, states, last, produce, join } = await bench(brand);
     const going = begin(produce(program("p", [0.5, 0]), { cycles: null }));

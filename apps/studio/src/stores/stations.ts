@@ -21,6 +21,8 @@ export interface StationState extends ConnectionInfo {
   readonly plan_rad: number | null;
   readonly command_rad: number | null;
   readonly running: boolean;
+  /** The program that it runs cycle after cycle; null while it does not. */
+  readonly production: Omit<EventOf<"production">, "type" | "station"> | null;
   /** Whether its ghost is shown, and how. Its angles are in `runtime/robot/stations.ts`. */
   readonly ghost: "none" | "free" | "blocked";
   /** The first thing in its way ahead, with the time to come; "" while the way is free. */
@@ -32,6 +34,9 @@ export interface StationState extends ConnectionInfo {
   /** The last thing the guard or the host said. */
   readonly notice: string;
 }
+/** Whether it carries out a program now: one that is held may be moved by hand. */
+export const isCarryingOut = ({ running, production }: Pick<StationState, "running" | "production">): boolean =>
+  running && production?.state !== "held";
 export interface StationsState {
   readonly stations: readonly StationState[];
   readonly brands: EventOf<"hello">["brands"];

@@ -14,7 +14,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { connectionStore } from "../../stores/connection.ts";
 import { openRealController } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
-import { stationStore } from "../../stores/stations.ts";
+import { isCarryingOut, stationStore } from "../../stores/stations.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { EnablingSwitch } from "../../ui/EnablingSwitch.tsx";
 import { Tip } from "../../ui/Tip.tsx";
@@ -60,7 +60,9 @@ export function Connection() {
           onChange={next => void choose(next)}
         />
       </div>
-      {station && <Connected ready={station.link.state === "open" && !station.guard.watching && !station.running} />}
+      {station && (
+        <Connected ready={station.link.state === "open" && !station.guard.watching && !isCarryingOut(station)} />
+      )}
     </div>
   );
 }

@@ -6,17 +6,20 @@ import type { TextProgram } from "@twincell/project";
 import { postProgram } from "../../runtime/planning/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { controlStore } from "../../stores/control.ts";
 import { programOf, robotOf, textOf } from "../../stores/document.ts";
 import { foreignStore, openForeign } from "../../stores/foreign.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { postStore } from "../../stores/post.ts";
+import { stationStore } from "../../stores/stations.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { say, words } from "../../messages/index.ts";
 import { fixed } from "../../messages/numbers.ts";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { Foreign } from "./Foreign.tsx";
+import { Production } from "./Production.tsx";
 import { SignalList } from "./SignalList.tsx";
 import "./run.css";
 
@@ -30,6 +33,11 @@ export default function Run() {
   const robot = robotOf(document);
   const running = useStore(controlStore, state => state.running);
   const safety = useStore(controlStore, state => state.safety);
+  const connected = useStore(connectionStore, state => state.station);
+  const producing = useStore(
+    stationStore,
+    ({ stations }) => (stations.find(({ id: each }) => each === connected)?.production ?? null) !== null,
+  );
   const held = useStore(playStore, state => state.speed === 0);
   const dialect = useStore(languageStore, state => languageOf(robot, state));
   const nothing = !program || !robot || program.steps.length === 0;
@@ -69,7 +77,7 @@ export default function Run() {
         </p>
         {robot && dialect && <LanguageChoice robot={robot} disabled={running} />}
         <div className="run-buttons">
-          {running ? (
+          {running || producing ? (
             <>
               <button className="btn" onClick={() => playStore.setState({ speed: held ? 1 : 0 })}>
                 {held ? <Play /> : <Pause />}
@@ -97,6 +105,7 @@ export default function Run() {
             </button>
           )}
         </div>
+        {connected !== null && <Production id={connected} disabled={nothing || safety !== "normal"} />}
         <TwinError />
         {nothing && <p className="muted">{words.run.nothing}</p>}
         {cannot !== null && (

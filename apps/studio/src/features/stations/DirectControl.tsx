@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef, useState } from "react";
 import type { CartesianAxis, CommandOutcome } from "@twincell/core";
 import { stationLive } from "../../runtime/robot/stations.ts";
 import { connectedRobot, type ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
-import type { StationState } from "../../stores/stations.ts";
+import { isCarryingOut, type StationState } from "../../stores/stations.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { EnablingSwitch } from "../../ui/EnablingSwitch.tsx";
 import { HoldButton } from "../../ui/HoldButton.tsx";
@@ -18,11 +18,12 @@ import "./direct.css";
 
 /** Everything that moves one connected robot by hand; motion only while the enabling switch is held. */
 export function DirectControl({ station }: { readonly station: StationState }) {
-  const { id, guard, safety, link, running } = station;
+  const { id, guard, safety, link } = station;
   const area = useRef<HTMLElement>(null);
   const robot = useMemo(() => connectedRobot(id), [id]);
   const [said, setSaid] = useState("");
-  const ready = link.state === "open" && guard.link === "up" && !guard.watching && safety === "normal" && !running;
+  const ready =
+    link.state === "open" && guard.link === "up" && !guard.watching && safety === "normal" && !isCarryingOut(station);
   const enabling = useEnablingSwitch(area, enabled => robot.setEnabled(enabled));
   const may = ready && enabling.enabled;
   const off = safety === "emergency-stop" || guard.emergency;

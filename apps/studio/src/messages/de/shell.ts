@@ -255,6 +255,7 @@ export const shellWords = {
     down: "Schritt nach unten",
     rename: "Umbenennen",
     startRun: "Auf der virtuellen Steuerung ausführen",
+    beginProduction: "Zyklus um Zyklus auf dem verbundenen Roboter ausführen",
     "frame(name)": "Verfahren in {name}",
     coach: "Einführung noch einmal zeigen",
     docs: "Dokumentation zu dem, was zu sehen ist",

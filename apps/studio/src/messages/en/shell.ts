@@ -231,6 +231,7 @@ export const shellWords = {
     down: "Move the step down",
     rename: "Rename",
     startRun: "Run on the virtual controller",
+    beginProduction: "Run cycle after cycle on the connected robot",
     "frame(name)": "Jog in {name}",
     coach: "Show the coach again",
     docs: "Documentation of what is on screen",

@@ -7,7 +7,7 @@ import { flangeFromTcpOf, robotOf, worldFromFrameOf } from "../../stores/documen
 import { jogStore, type JogState } from "../../stores/jog.ts";
 import { notify } from "../../stores/notices.ts";
 import { playStore } from "../../stores/play.ts";
-import { stationOf, stationStore, type ServerAddress } from "../../stores/stations.ts";
+import { isCarryingOut, stationOf, stationStore, type ServerAddress } from "../../stores/stations.ts";
 import { viewStore } from "../../stores/view.ts";
 import { words } from "../../messages/index.ts";
 import { showJoints, theLive } from "../live.ts";
@@ -186,7 +186,7 @@ export function startCellConnection(): void {
     if (!now) return;
     controlStore.setState({
       controller: words.connection.chip(robotOf(cellStore.getState().document)?.name ?? now.name, now.virtual),
-      running: now.running,
+      running: isCarryingOut(now),
       mode: now.mode,
       safety: now.safety,
       step: now.step,

@@ -1,5 +1,5 @@
 import { clearOf } from "@twincell/controllers";
-import { linkSolids } from "@twincell/core";
+import { linkSolids, type CommandOutcome } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { registerCommands } from "../../stores/commands.ts";
@@ -30,6 +30,7 @@ import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
 import { connectionCommands } from "./connection-commands.ts";
 import { showAs, startCellConnection, tellRefused, theConnected } from "./cell-connection.ts";
+import { beginProduction } from "./station-production.ts";
 import { runStation, startStations } from "./stations.ts";
 import { travelBack, type TravelBack } from "../history/travel-back.ts";
 
@@ -83,7 +84,16 @@ export const theHistory: TravelBack = travelBack(shelf, pageScheduler, openInWor
 async function runConnected(id: string, despite: readonly string[]): Promise<void> {
   showAs("live");
   viewStore.setState({ mode: "run" });
-  const outcome = await runStation(id, despite);
+  tellEnd(id, await runStation(id, despite));
+}
+
+/** On the connected robot, cycle after cycle. */
+async function produceConnected(id: string, despite: readonly string[]): Promise<void> {
+  showAs("live");
+  viewStore.setState({ mode: "run" });
+  tellEnd(id, await beginProduction(id, despite));
+}
+function tellEnd(id: string, outcome: CommandOutcome): void {
   const name = stationOf(id)?.name ?? id;
   if (outcome.kind === "done") {
     sound("done");
@@ -249,6 +259,17 @@ export function startCellControl(): void {
             station === null ? [] : [station],
           );
         }
+      },
+    },
+    {
+      id: "production.begin",
+      group: "play",
+      words: words.commands.beginProduction,
+      can: () => connectionStore.getState().station !== null,
+      run: () => {
+        const { station } = connectionStore.getState();
+        if (station === null) return;
+        askBeforeRun(despite => void produceConnected(station, despite), [station]);
       },
     },
     {

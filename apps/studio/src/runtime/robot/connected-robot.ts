@@ -135,10 +135,21 @@ export function connectedRobot(id: string): ConnectedRobot {
       blocked: met => refused("jog.contact", words.direct.inTheWay(...namesOf(met)), words.direct.inTheWayHint),
     });
   };
+  /** Ends a motion by hand. A production that is held keeps its place, which a STOP would take from it. */
+  const endMotion = (): void => {
+    if (underWay === 0) return;
+    if (stationOf(id)?.production?.state !== "held") {
+      stopStation(id);
+      return;
+    }
+    void ask({ type: "intervene", station: id }).then(({ kind }) => {
+      if (kind !== "done") stopStation(id);
+    });
+  };
   return {
     setEnabled(enabled) {
       press++;
-      if (!enabled && underWay > 0) stopStation(id);
+      if (!enabled) endMotion();
       holdStation(id, enabled);
     },
     jointAngles: () => Array.from(stationLive(id)?.q_rad ?? []),
@@ -176,7 +187,7 @@ export function connectedRobot(id: string): ConnectedRobot {
     setOverride: percent => ask({ type: "speed", station: id, percent }),
     stopJog() {
       press++;
-      if (underWay > 0) stopStation(id);
+      endMotion();
     },
     drivesOff() {
       stopStation(id, true);

@@ -375,6 +375,9 @@ function take(place: ServerAddress, message: Told): void {
     case "act":
       recordAct(message);
       break;
+    case "production":
+      changeStation(message.station, { production: message.state === "ended" ? null : message });
+      break;
     case "ahead":
       foresee(message);
       break;
@@ -431,6 +434,7 @@ function appear(
     plan_rad: null,
     command_rad: null,
     running: false,
+    production: null,
     unplugged: false,
     notice: "",
     ghost: "none",

@@ -41,6 +41,29 @@ export const saidByRobots: Sentences = {
   "The program ended with a fault of its own: {why}": "Das Programm endete mit einem eigenen Fehler: {why}",
   "Look at the line it came from.": "Die Zeile ansehen, aus der er kommt.",
 
+  // Productions
+  "The production was stopped while it was held.": "Der Lauf wurde angehalten, während er unterbrochen war.",
+  "Begin it again.": "Neu beginnen.",
+  "It runs as text of the controller's own language, which has the place to itself.":
+    "Es läuft als Text der Steuerung, und nur sie kennt die Stelle.",
+  "Run it by steps, or resume with a cycle from its beginning.":
+    "Schritt für Schritt ausführen, oder mit einem Zyklus von vorn fortfahren.",
+  "The program computes: what its variables are in the middle of a cycle is not known.":
+    "Das Programm rechnet: Was seine Variablen mitten im Zyklus sind, ist nicht bekannt.",
+  "Resume with a cycle from its beginning.": "Mit einem Zyklus von vorn fortfahren.",
+  "It was in the middle of the step “{step}”, which has steps of its own: how far it was is not known.":
+    "Er war mitten im Schritt „{step}“, der eigene Schritte hat: Wie weit, ist nicht bekannt.",
+  "The production is not held.": "Der Lauf ist nicht unterbrochen.",
+  "Hold it first.": "Erst halten.",
+  "The production ended before its next cycle.": "Der Lauf endete vor seinem nächsten Zyklus.",
+  "Begin it again with the new program.": "Mit dem neuen Programm neu beginnen.",
+  "The production has ended.": "Der Lauf ist zu Ende.",
+  "Another program was given before its cycle came.": "Vor seinem Zyklus kam ein anderes Programm.",
+  "No production runs on this robot.": "Auf diesem Roboter läuft nichts Zyklus um Zyklus.",
+  "Begin one.": "Einen Lauf beginnen.",
+  "{robot} is in production already.": "{robot} läuft schon Zyklus um Zyklus.",
+  "Give it another program with replace, or stop it first.": "Ein anderes Programm geben, oder erst anhalten.",
+
   // Guard
   "Not a certified safety function: it may refuse or stop a motion, it can never guarantee one.":
     "Keine zertifizierte Sicherheitsfunktion: Sie kann eine Bewegung verweigern oder anhalten, aber nie garantieren.",
