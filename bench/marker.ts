@@ -9,7 +9,7 @@ const MAX_TILT_RAD = Math.PI / 3;
 
 /**
  * A printed tag of 100 mm in rendered pictures of 1280 × 720: how far the pose is off, and how long a picture takes.
- * Tilted by up to 60°, anywhere in the picture, blurred by 0.7 px, with noise of 2 grey levels and a lens that distorts.
+ * Tilted by up to 60°, anywhere in the picture, blurred by 0.7 px, with noise of 2 grey levels and a distorting lens.
  */
 export const run: Bench = () => {
   const figures: Figure[] = [];
