@@ -271,7 +271,7 @@ describe("post, run, parse", () => {
     const path = join(folder, "unknown.v2");
     writeFileSync(
       path,
-      ".PROGRAM a()\n  MOVE #PPOINT(10,-90,90,0,45,0)\n  BREAK\n  FROBNICATE 5\n  MOVES nowhere\n  DELAY 1\n.END\n",
+      ".PROGRAM a()\n  MOVE #PPOINT(10,-90,90,0,45,0)\n  BREAK\n  FROBNICATE 5\n  MOVES SPIN(5)\n  DELAY 1\n.END\n",
     );
     expect(twincell("parse", path, "--robot", "staubli_rx90l").code).toBe(2);
     for (const command of ["parse", "run"]) {
