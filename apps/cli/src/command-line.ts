@@ -4,9 +4,10 @@ import { COMMANDS } from "./commands/index.ts";
 import { missingPart } from "./io/optional-parts.ts";
 import { UseFault } from "./io/usage.ts";
 
+const WIDEST = Math.max(...COMMANDS.map(({ name }) => name.length));
 const help = (): string => `twincell COMMAND [options]
 
-${COMMANDS.map(command => `  ${command.name.padEnd(10)} ${command.summary}`).join("\n")}
+${COMMANDS.map(command => `  ${command.name.padEnd(WIDEST)} ${command.summary}`).join("\n")}
 
 Every command takes --help. SI units and radians; joints count from 1.
 Exit 0 fine, 1 the thing checked is not fine, 2 wrong use or unreadable input.

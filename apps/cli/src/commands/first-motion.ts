@@ -1,4 +1,4 @@
-import { writeFile } from "node:fs/promises";
+import { open, type FileHandle } from "node:fs/promises";
 import { Writable } from "node:stream";
 import { degrees } from "@twincell/core";
 import cli from "../../package.json" with { type: "json" };
@@ -35,17 +35,36 @@ Nobody in reach, a hand on the emergency stop. Not a certified safety device.`,
     if (to === undefined) throw new UseFault("--to is missing.", "Give a file for the evidence.");
     if (options.text("speed") !== undefined)
       throw new UseFault("--speed is not taken.", `The first motion goes at ${SPEED_PERCENT} %.`);
+    const file = await newFile(to);
     const questions = questionsOn(process.stdin, terminal());
+    // Ctrl-C stops the robot; it also ends a question that waits.
+    const end = (): void => questions.close();
+    process.once("SIGINT", end);
     try {
       const evidence = await walkThrough(options, questions, { by, driver });
-      await writeFile(to, `${JSON.stringify(evidence, null, 2)}\n`);
+      await file.writeFile(`${JSON.stringify(evidence, null, 2)}\n`);
       process.stderr.write(`\n${to}: ${evidence.verdict}.\n`);
       return evidence.verdict === "passed" ? 0 : 1;
     } finally {
+      process.removeListener("SIGINT", end);
       questions.close();
+      await file.close();
     }
   },
 };
+
+/** Opened before anything moves: evidence that could not be kept would have been made for nothing. */
+async function newFile(path: string): Promise<FileHandle> {
+  try {
+    return await open(path, "wx");
+  } catch (problem) {
+    const there = problem instanceof Error && "code" in problem && problem.code === "EEXIST";
+    throw new UseFault(
+      there ? `${path} is there already.` : `${path} cannot be written: ${(problem as Error).message}.`,
+      "Name another file for the evidence.",
+    );
+  }
+}
 
 /** Questions go where people read, and leave standard output to the outcome. */
 const terminal = (): Writable =>

@@ -43,7 +43,9 @@ describe("evidence of a first motion", () => {
     input.end("perhaps\nYES\nn\n");
     expect(await questions.ask("a", "First?", { off_deg: 0.01 })).toBe("yes");
     expect(await questions.ask("b", "Second?")).toBe("no");
+    expect(questions.ended).toBe(false);
     expect(await questions.ask("c", "Third?")).toBe("skipped");
+    expect(questions.ended).toBe(true);
     expect(await questions.wait("Go on")).toBe(false);
     expect(questions.asked).toEqual([
       { id: "a", question: "First?", answer: "yes", answered, measured: { off_deg: 0.01 } },

@@ -1,6 +1,6 @@
 /** The first motion of a robot, on a virtual controller in a process of its own, with answers on standard input. */
 import { spawn, type ChildProcess } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -30,8 +30,11 @@ afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** Answers each question as it comes; `answer` sees the text since the last one. */
-function walk(file: string, answer: (question: string) => string): Promise<{ code: number | null; text: string }> {
+/** Answers each question as it comes; `answer` sees the text since the last one. null: nobody answers any more. */
+function walk(
+  file: string,
+  answer: (question: string) => string | null,
+): Promise<{ code: number | null; text: string }> {
   const args = ["--at", HOST, "--driver", "ur", "--robot", "ur10e", "--by", "A. Tester", "--to", file];
   const child = spawn(process.execPath, [CLI, "first-motion", ...args], {
     cwd: root,
@@ -44,7 +47,9 @@ function walk(file: string, answer: (question: string) => string): Promise<{ cod
     if (!/(skip|Enter): $/.test(text)) return;
     const question = text.slice(seen);
     seen = text.length;
-    child.stdin.write(`${answer(question)}\n`);
+    const said = answer(question);
+    if (said === null) child.stdin.end();
+    else child.stdin.write(`${said}\n`);
   });
   return new Promise(resolve => {
     child.once("close", code => {
@@ -90,4 +95,27 @@ test("no at the angles: nothing is commanded, and the file says that it failed",
     ["alone", "yes"],
     ["angles", "no"],
   ]);
+}, 60_000);
+
+test("an end of the answers in the middle moves nothing more: the next joint is never asked for, and the file is incomplete", async () => {
+  const file = join(folder, "left.json");
+  const { code, text } = await walk(file, question => (question.includes("Joint 2 ") ? null : "yes"));
+  const evidence = JSON.parse(readFileSync(file, "utf8")) as Evidence;
+  expect([code, evidence.verdict], text).toEqual([1, "incomplete"]);
+  expect(evidence.steps.map(({ id, answer }) => [id, answer])).toEqual([
+    ["alone", "yes"],
+    ["angles", "yes"],
+    ["joint-1", "yes"],
+    ["joint-2", "skipped"],
+  ]);
+  expect(text).toContain("Nobody answers any more");
+}, 60_000);
+
+test("a file that is there already is not written over, and nothing is asked", async () => {
+  const file = join(folder, "kept.json");
+  writeFileSync(file, "somebody's");
+  const { code, text } = await walk(file, () => "yes");
+  expect(code).toBe(2);
+  expect(text).toBe(`twincell: ${file} is there already. Name another file for the evidence.\n`);
+  expect(readFileSync(file, "utf8")).toBe("somebody's");
 }, 60_000);

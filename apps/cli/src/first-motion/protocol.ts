@@ -79,6 +79,7 @@ async function turnJoint(
     isSlide(joint) ? { off_mm: 1000 * off } : { off_deg: degrees(off) },
   );
   if (answer === "no") return notAsMeant(`joint ${j + 1}`);
+  if (questions.ended) return NOBODY;
   return moveTo(at, ask, from);
 }
 
@@ -107,20 +108,22 @@ async function stopOnTheWay(
       : "Joint 1 was told to stop on its way, and still moves. USE THE RED BUTTON. Does it stand now?",
     { took_ms, travel_deg },
   );
-  return answer === "no" ? notAsMeant("the stop") : moveTo(at, ask, from);
+  if (answer === "no") return notAsMeant("the stop");
+  return questions.ended ? NOBODY : moveTo(at, ask, from);
 }
 
 /**
  * A slow motion during which a person pulls the cable.
  *
- * @returns done whatever became of the motion: a lost link ends it. The question after it says whether the arm stood.
+ * @returns done whatever became of the motion, since a lost link ends it: the question after it says whether the arm
+ *   stood. Stopped where nobody answers any more.
  */
 export async function pullCable(at: RobotAt, ask: Ask, questions: Questions): Promise<CommandOutcome> {
   const went = await questions.wait(
     "Last: joint 1 turns slowly to and fro. Pull the controller's network cable while it moves, and plug it in again " +
       "after it stands.",
   );
-  if (!went) return DONE;
+  if (!went) return NOBODY;
   const from = at.sample!.q_rad;
   const target = nudged(at, from, 0);
   let outcome: CommandOutcome = DONE;
@@ -157,6 +160,16 @@ async function standing(at: RobotAt): Promise<readonly number[]> {
   await at.until(({ moving }) => !moving, STANDS_S);
   return at.sample!.q_rad;
 }
+
+/** An arm is not moved on when whoever stands beside it does not answer. */
+const NOBODY: CommandOutcome = {
+  kind: "stopped",
+  why: {
+    code: "first-motion.nobody",
+    sentence: "Nobody answers any more: nothing more is commanded.",
+    hint: "Begin again, and answer each question.",
+  },
+};
 
 const notAsMeant = (what: string): CommandOutcome => ({
   kind: "stopped",

@@ -5,6 +5,8 @@ import type { Answer, EvidenceStep } from "./evidence.ts";
 /** Asks a person, one question after the other, and keeps what was said. */
 export interface Questions {
   readonly asked: readonly EvidenceStep[];
+  /** Nobody answers any more: the input has ended, or the questions were closed. */
+  readonly ended: boolean;
   ask(id: string, question: string, measured?: EvidenceStep["measured"]): Promise<Answer>;
   /** Waits for a line, whatever it says; false at the end of the input. */
   wait(sentence: string): Promise<boolean>;
@@ -29,12 +31,18 @@ export function questionsOn(input: Readable, output: Writable, now = () => new D
   const lines = createInterface({ input });
   const waiting = lines[Symbol.asyncIterator]();
   const asked: EvidenceStep[] = [];
+  let ended = false;
   const line = async (): Promise<string | null> => {
     const next = await waiting.next();
-    return next.done === true ? null : next.value.trim().toLowerCase();
+    if (next.done !== true) return next.value.trim().toLowerCase();
+    ended = true;
+    return null;
   };
   return {
     asked,
+    get ended() {
+      return ended;
+    },
     async ask(id, question, measured) {
       output.write(`\n${question}\n  yes, no or skip: `);
       let said = await line();
