@@ -102,7 +102,8 @@ export function registerBase(
       sentence:
         driven.length === 0
           ? `${MIN_TOUCHES} touched points are the least; ${touches.length} were given.`
-          : `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ${touches.length} and ${driven.length} were given.`,
+          : `${MIN_TOUCHES} touched points or ${MIN_DRIVEN} driven poses are the least; ` +
+            `${touches.length} and ${driven.length} were given.`,
     };
   const start = touches.length >= MIN_TOUCHES ? registerPoints(touches.map(pairOf)) : startFromDriven(driven);
   if (start.kind === "too-few" || start.kind === "not-a-point") return { kind: start.kind, sentence: start.sentence };
@@ -228,7 +229,9 @@ class Fit {
       return {
         kind: "disagree",
         rms_m,
-        sentence: `The points disagree by ${(1000 * rms_m).toFixed(1)} mm (root mean square), ${ratio.toFixed(1)} times what the tracking's noise explains. Take them again.`,
+        sentence:
+          `The points disagree by ${(1000 * rms_m).toFixed(1)} mm (root mean square), ${ratio.toFixed(1)} times what the ` +
+          `tracking's noise explains. Take them again.`,
       };
     const covariance = this.#covariance(scale);
     const times = [...this.#touches, ...this.#driven].map(({ at_s }) => at_s);
@@ -249,10 +252,9 @@ class Fit {
     };
     const bound_m = registrationBound(registered, [0, 0, 0], at_s);
     const [bound, rms] = [bound_m, rms_m].map(value => (1000 * value).toFixed(1));
-    const sentence =
-      this.#driven.length === 0
-        ? `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points; they are met to ${rms} mm (root mean square).`
-        : `The base is known to ${bound} mm (95 %), from ${this.#touches.length} touched points and ${this.#driven.length} driven poses; they are met to ${rms} mm (root mean square).`;
+    const touched = `${this.#touches.length} touched points`;
+    const from = this.#driven.length === 0 ? touched : `${touched} and ${this.#driven.length} driven poses`;
+    const sentence = `The base is known to ${bound} mm (95 %), from ${from}; they are met to ${rms} mm (root mean square).`;
     return { ...registered, bound_m, sentence };
   }
 

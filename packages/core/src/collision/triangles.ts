@@ -1,15 +1,16 @@
-/** Where corners, edges and normals of the two triangles begin in `CORNERS`; p0 is the origin. */
-const A = 0; // p1
-const B = 3; // p2
-const C = 6; // p1 to p2
-const D = 9; // q0
-const E = 12; // q1
-const F = 15; // q2
-const G = 18; // q0 to q1
-const H = 21; // q0 to q2
-const K = 24; // q1 to q2
-const N = 27; // normal of p
-const M = 30; // normal of q
+/** Where corners, edges and normals of the triangles p and q begin in `CORNERS`; the corner p0 is the origin. */
+const P1 = 0;
+const P2 = 3;
+/** Edge from p1 to p2; those from p0 are p1 and p2 themselves. */
+const P12 = 6;
+const Q0 = 9;
+const Q1 = 12;
+const Q2 = 15;
+const Q01 = 18;
+const Q02 = 21;
+const Q12 = 24;
+const NORMAL_P = 27;
+const NORMAL_Q = 30;
 /** Kept between the steps of one call: indices are handed on, since numbers would be allocated. */
 const CORNERS = new Float64Array(33);
 
@@ -64,62 +65,62 @@ export function trianglesTouch(p: Float64Array, i: number, q: Float64Array, j: n
   const mb = mx * bx + my * by + mz * bz;
   if ((md < 0 && ma > md && mb > md) || (md > 0 && ma < md && mb < md)) return false;
 
-  CORNERS[A] = ax;
-  CORNERS[A + 1] = ay;
-  CORNERS[A + 2] = az;
-  CORNERS[B] = bx;
-  CORNERS[B + 1] = by;
-  CORNERS[B + 2] = bz;
-  CORNERS[C] = bx - ax;
-  CORNERS[C + 1] = by - ay;
-  CORNERS[C + 2] = bz - az;
-  CORNERS[D] = dx;
-  CORNERS[D + 1] = dy;
-  CORNERS[D + 2] = dz;
-  CORNERS[E] = ex;
-  CORNERS[E + 1] = ey;
-  CORNERS[E + 2] = ez;
-  CORNERS[F] = fx;
-  CORNERS[F + 1] = fy;
-  CORNERS[F + 2] = fz;
-  CORNERS[G] = gx;
-  CORNERS[G + 1] = gy;
-  CORNERS[G + 2] = gz;
-  CORNERS[H] = hx;
-  CORNERS[H + 1] = hy;
-  CORNERS[H + 2] = hz;
-  CORNERS[K] = fx - ex;
-  CORNERS[K + 1] = fy - ey;
-  CORNERS[K + 2] = fz - ez;
-  CORNERS[N] = nx;
-  CORNERS[N + 1] = ny;
-  CORNERS[N + 2] = nz;
-  CORNERS[M] = mx;
-  CORNERS[M + 1] = my;
-  CORNERS[M + 2] = mz;
+  CORNERS[P1] = ax;
+  CORNERS[P1 + 1] = ay;
+  CORNERS[P1 + 2] = az;
+  CORNERS[P2] = bx;
+  CORNERS[P2 + 1] = by;
+  CORNERS[P2 + 2] = bz;
+  CORNERS[P12] = bx - ax;
+  CORNERS[P12 + 1] = by - ay;
+  CORNERS[P12 + 2] = bz - az;
+  CORNERS[Q0] = dx;
+  CORNERS[Q0 + 1] = dy;
+  CORNERS[Q0 + 2] = dz;
+  CORNERS[Q1] = ex;
+  CORNERS[Q1 + 1] = ey;
+  CORNERS[Q1 + 2] = ez;
+  CORNERS[Q2] = fx;
+  CORNERS[Q2 + 1] = fy;
+  CORNERS[Q2 + 2] = fz;
+  CORNERS[Q01] = gx;
+  CORNERS[Q01 + 1] = gy;
+  CORNERS[Q01 + 2] = gz;
+  CORNERS[Q02] = hx;
+  CORNERS[Q02 + 1] = hy;
+  CORNERS[Q02 + 2] = hz;
+  CORNERS[Q12] = fx - ex;
+  CORNERS[Q12 + 1] = fy - ey;
+  CORNERS[Q12 + 2] = fz - ez;
+  CORNERS[NORMAL_P] = nx;
+  CORNERS[NORMAL_P + 1] = ny;
+  CORNERS[NORMAL_P + 2] = nz;
+  CORNERS[NORMAL_Q] = mx;
+  CORNERS[NORMAL_Q + 1] = my;
+  CORNERS[NORMAL_Q + 2] = mz;
   return !(edgesApart() || inPlaneApart());
 }
 
 /** Products of edges. An axis across edge e of p and edge f of q sees p as two values and q as two values. */
 const edgesApart = (): boolean =>
-  apart(A, G, B, B, D, F, D) ||
-  apart(A, H, B, B, D, E, D) ||
-  apart(A, K, B, B, E, D, E) ||
-  apart(B, G, A, A, D, F, D) ||
-  apart(B, H, A, A, D, E, D) ||
-  apart(B, K, A, A, E, D, E) ||
-  apart(C, G, A, A, D, F, D) ||
-  apart(C, H, A, A, D, E, D) ||
-  apart(C, K, A, A, E, D, E);
+  apart(P1, Q01, P2, P2, Q0, Q2, Q0) ||
+  apart(P1, Q02, P2, P2, Q0, Q1, Q0) ||
+  apart(P1, Q12, P2, P2, Q1, Q0, Q1) ||
+  apart(P2, Q01, P1, P1, Q0, Q2, Q0) ||
+  apart(P2, Q02, P1, P1, Q0, Q1, Q0) ||
+  apart(P2, Q12, P1, P1, Q1, Q0, Q1) ||
+  apart(P12, Q01, P1, P1, Q0, Q2, Q0) ||
+  apart(P12, Q02, P1, P1, Q0, Q1, Q0) ||
+  apart(P12, Q12, P1, P1, Q1, Q0, Q1);
 
 /** Normals of edges in the plane of their triangle, for triangles in one plane. */
 const inPlaneApart = (): boolean =>
-  apart(N, A, B, B, D, E, F) ||
-  apart(N, B, A, A, D, E, F) ||
-  apart(N, C, B, B, D, E, F) ||
-  apart(M, G, A, B, D, F, D) ||
-  apart(M, H, A, B, D, E, D) ||
-  apart(M, K, A, B, E, D, E);
+  apart(NORMAL_P, P1, P2, P2, Q0, Q1, Q2) ||
+  apart(NORMAL_P, P2, P1, P1, Q0, Q1, Q2) ||
+  apart(NORMAL_P, P12, P2, P2, Q0, Q1, Q2) ||
+  apart(NORMAL_Q, Q01, P1, P2, Q0, Q2, Q0) ||
+  apart(NORMAL_Q, Q02, P1, P2, Q0, Q1, Q0) ||
+  apart(NORMAL_Q, Q12, P1, P2, Q1, Q0, Q1);
 
 /** Whether the axis first × second separates {0, u, w} from {v1, v2, v3}; all are places in `CORNERS`. */
 function apart(first: number, second: number, u: number, w: number, v1: number, v2: number, v3: number): boolean {

@@ -96,19 +96,19 @@ export function createJogger(): Jogger {
     };
   };
   /** One frame in which what is held moves the target, and the arm goes after it. */
-  const follow = (on: JogCell, jog: JogState, any: boolean, now_ms: number, dt_s: number): void => {
+  const follow = (on: JogCell, jog: JogState, pressed: boolean, now_ms: number, dt_s: number): void => {
     const locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
-    if (!any) {
+    if (!pressed) {
       letGo = false;
       if (jog.blocked && !locked) jogStore.setState({ blocked: null });
     }
     const stepping = jog.manner === "steps";
     const part_s = stepping ? Math.min(dt_s, left_s) : dt_s;
-    const moves = !locked && !letGo && (stepping ? left_s > 0 : any);
+    const moves = !locked && !letGo && (stepping ? left_s > 0 : pressed);
     const sentence = follower.step(on, moves ? command(on, jog, stepping ? pending : held) : null, part_s, dt_s);
     if (stepping && moves) left_s -= part_s;
     if (sentence === null) return;
-    letGo = any;
+    letGo = pressed;
     left_s = 0;
     jogStore.setState({ blocked: { sentence, until_ms: now_ms + STOPPED_MS } });
   };
@@ -117,15 +117,15 @@ export function createJogger(): Jogger {
 
   return {
     step(now_ms, dt_s) {
-      const any = heldNow(held);
+      const pressed = heldNow(held);
       const jog = jogStore.getState();
-      if (jog.moving !== any) jogStore.setState({ moving: any });
+      if (jog.moving !== pressed) jogStore.setState({ moving: pressed });
       if (isLive()) {
         jogLive(held, now_ms);
         if (jog.blocked && now_ms >= jog.blocked.until_ms) jogStore.setState({ blocked: null });
         return;
       }
-      if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0))
+      if (jog.aid !== null && pressed && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0))
         jogStore.setState({ aid: null });
       if (jog.manner === "steps") {
         for (let i = 0; i < MAX_COORDINATES; i++)
@@ -144,10 +144,10 @@ export function createJogger(): Jogger {
       if (follows && !following) follower.begin();
       following = follows;
       if (follows && on && dt_s > 0 && !controlStore.getState().running) {
-        follow(on, jog, any, now_ms, dt_s);
+        follow(on, jog, pressed, now_ms, dt_s);
         return;
       }
-      if (!any && !(stepping && left_s > 0)) {
+      if (!pressed && !(stepping && left_s > 0)) {
         if (moverNow() === "jog") leaveRobot("jog");
         known = "";
         letGo = false;
