@@ -229,9 +229,7 @@ class Fit {
       return {
         kind: "disagree",
         rms_m,
-        sentence:
-          `The points disagree by ${(1000 * rms_m).toFixed(1)} mm (root mean square), ${ratio.toFixed(1)} times what the ` +
-          `tracking's noise explains. Take them again.`,
+        sentence: `The points disagree by ${(1000 * rms_m).toFixed(1)} mm (root mean square), ${ratio.toFixed(1)} times what the tracking's noise explains. Take them again.`,
       };
     const covariance = this.#covariance(scale);
     const times = [...this.#touches, ...this.#driven].map(({ at_s }) => at_s);
