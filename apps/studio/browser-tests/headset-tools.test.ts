@@ -1,7 +1,8 @@
-import { compose, distance, flangePose, robotById, type MoveStep, type Program, type Vector3 } from "@twincell/core";
-import { edgeTraceCell, saveDocument, tracedCartonCell, type CellDocument } from "@twincell/project";
+import { compose, distance, flangePose, robotById, type Vector3 } from "@twincell/core";
+import { edgeTraceCell, saveDocument } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { cellWithBadPoint, fifthJoint, verdictOfBad } from "./support/bad-point.ts";
 import { Person } from "./support/headset.ts";
 import { ledger } from "./support/ledger.ts";
 import { drawn, Studio } from "./support/studio.ts";
@@ -424,25 +425,8 @@ describe("in an emulated Quest 3", () => {
   });
 
   test("L-69 D in VR: Check names the bad pose, Edit snaps to it, the hand moves it to a good one, and it is stored", async () => {
-    const traced = tracedCartonCell();
-    const program = traced.programs[0] as Program;
-    const bad: MoveStep = {
-      id: "bad",
-      name: "Bad point",
-      type: "move",
-      path: "ptp",
-      speed: { ratio: 0.2 },
-      blend_m: 0,
-      target: { q: [0, -1.2, 1.9, 0, 123 * DEG, 0], tool: "torch" },
-    };
-    const broken: CellDocument = { ...traced, programs: [{ ...program, steps: [...program.steps.slice(0, 1), bad] }] };
-    const verdictOfBad = (): Promise<string | undefined> =>
-      page.evaluate(() => {
-        const { verdict, stale } = window.twincell.stores.playStore.getState();
-        return stale ? "stale" : verdict?.steps.find(({ id }) => id === "bad")?.verdict;
-      });
-    await page.evaluate(text => window.twincell.document.open(text, "cell.json"), saveDocument(broken));
-    await expect.poll(verdictOfBad, { timeout: 60_000 }).toBe("bad");
+    await page.evaluate(text => window.twincell.document.open(text, "cell.json"), saveDocument(cellWithBadPoint()));
+    await expect.poll(() => verdictOfBad(page), { timeout: 60_000 }).toBe("bad");
     await person.open("check");
     await person.press("right", "problem-next");
     await page.evaluate(() => {
@@ -450,14 +434,13 @@ describe("in an emulated Quest 3", () => {
     });
     await person.open("teach", 2);
     await person.press("right", "edit");
-    const fifth = (): Promise<number> => page.evaluate(() => (window.twincell.live.now().q_rad[4]! * 180) / Math.PI);
-    await expect.poll(fifth, { timeout: 30_000 }).toBeGreaterThan(115);
+    await expect.poll(() => fifthJoint(page), { timeout: 30_000 }).toBeGreaterThan(115);
     await take();
     await person.carry("right", [0, 0, -0.16]);
-    expect(await fifth()).toBeLessThan(105);
+    expect(await fifthJoint(page)).toBeLessThan(105);
     await leave();
     await person.press("right", "edit");
-    await expect.poll(verdictOfBad, { timeout: 60_000 }).toBe("ok");
+    await expect.poll(() => verdictOfBad(page), { timeout: 60_000 }).toBe("ok");
   });
 
   test("a session that ends in mid-drag, and a headset that is refused, are told with a way on, and the work goes on", async () => {

@@ -66,6 +66,30 @@ function cable(inner: RobotController, now_s: () => number) {
   return { link, controller };
 }
 
+/** A guard whose own thread can be held up, watching a motion that is under way. */
+function stallingBench() {
+  const scheduler = manualScheduler();
+  const { link, controller } = cable(createVirtualController({ robot, scheduler, start_rad: START }), () =>
+    scheduler.now_s(),
+  );
+  const thread = { heldUp: false };
+  const guard = createGuard({
+    controller,
+    scheduler: {
+      now_s: () => scheduler.now_s(),
+      every: (period_s, tick) =>
+        scheduler.every(period_s, () => {
+          if (!thread.heldUp) tick();
+        }),
+    },
+    heartbeat_s: 0.08,
+    silence_s: 0.06,
+  });
+  const me = guard.seat("me");
+  me.acquireLease();
+  return { scheduler, link, guard, me, thread, command: me.robot.moveJoints(turned(0.1)) };
+}
+
 function bench(options: Partial<GuardOptions> = {}) {
   const scheduler = manualScheduler();
   const real = createVirtualController({ robot, scheduler, start_rad: START });
@@ -101,34 +125,16 @@ describe("guard", () => {
 
   test("a guard whose own thread was held up for 200 ms hears first what was said meanwhile; silence after it counts as ever", async () => {
     for (const cut of [false, true]) {
-      const scheduler = manualScheduler();
-      const real = createVirtualController({ robot, scheduler, start_rad: START });
-      const { link, controller } = cable(real, () => scheduler.now_s());
-      let heldUp = false;
-      const guard = createGuard({
-        controller,
-        scheduler: {
-          now_s: () => scheduler.now_s(),
-          every: (period_s, tick) =>
-            scheduler.every(period_s, () => {
-              if (!heldUp) tick();
-            }),
-        },
-        heartbeat_s: 0.08,
-        silence_s: 0.06,
-      });
-      const me = guard.seat("me");
-      me.acquireLease();
-      const command = me.robot.moveJoints(turned(0.1));
+      const { scheduler, link, guard, me, command, thread } = stallingBench();
       const alive = scheduler.every(0.02, () => {
-        if (!heldUp) me.alive();
+        if (!thread.heldUp) me.alive();
       });
       await scheduler.elapse(0.1);
-      heldUp = true;
+      thread.heldUp = true;
       link.up = false;
       await scheduler.elapse(0.2);
       // What was said waited to be read: the next look comes before it.
-      heldUp = false;
+      thread.heldUp = false;
       await scheduler.elapse(0.02);
       expect(guard.state.link).toBe("up");
       link.up = !cut;
@@ -146,32 +152,14 @@ describe("guard", () => {
 
   test("on a thread that comes 40 ms late to every look, again and again, its own lateness is no silence; a robot that is silent is found out all the same", async () => {
     for (const cut of [false, true]) {
-      const scheduler = manualScheduler();
-      const real = createVirtualController({ robot, scheduler, start_rad: START });
-      const { link, controller } = cable(real, () => scheduler.now_s());
-      let heldUp = false;
-      const guard = createGuard({
-        controller,
-        scheduler: {
-          now_s: () => scheduler.now_s(),
-          every: (period_s, tick) =>
-            scheduler.every(period_s, () => {
-              if (!heldUp) tick();
-            }),
-        },
-        heartbeat_s: 0.08,
-        silence_s: 0.06,
-      });
-      const me = guard.seat("me");
-      me.acquireLease();
-      const command = me.robot.moveJoints(turned(0.1));
+      const { scheduler, link, guard, me, command, thread } = stallingBench();
       await scheduler.elapse(0.04);
       me.alive();
       for (let stall = 0; stall < 20; stall++) {
-        heldUp = true;
+        thread.heldUp = true;
         link.up = false;
         await scheduler.elapse(0.059);
-        heldUp = false;
+        thread.heldUp = false;
         // The look comes first, then what was said meanwhile.
         await scheduler.elapse(0.02);
         if (!cut) {
