@@ -17,7 +17,7 @@ export interface DeviceReport {
   readonly socket: DeviceFinding;
 }
 
-/** Looks at this device and page now. Asks for no permission and opens nothing. */
+/** Looks at this device and page now. Asks for no permission and opens nothing; `lookForCamera` comes before it. */
 export function lookAtDevice(): DeviceReport {
   const { ready, reason } = headsetStore.getState();
   const { state } = offlineStore.getState();
@@ -29,12 +29,26 @@ export function lookAtDevice(): DeviceReport {
     certificate: local || state === "kept" ? "ok" : state === "unsupported" ? "missing" : "unknown",
     headset: ready === null ? "unknown" : found(ready),
     headsetWhy: ready === false ? reason : "",
-    camera: found(window.isSecureContext && "mediaDevices" in navigator),
+    camera,
     graphics: found(hasWebGl2()),
     socket: server === null ? "unknown" : found(server),
   };
 }
 const found = (there: boolean): DeviceFinding => (there ? "ok" : "missing");
+
+let camera: DeviceFinding = "unknown";
+/** Looks whether this device has a camera that the page may ask for. That it is there is told without permission. */
+export async function lookForCamera(): Promise<void> {
+  if (!window.isSecureContext || !("mediaDevices" in navigator)) {
+    camera = "missing";
+    return;
+  }
+  try {
+    camera = found((await navigator.mediaDevices.enumerateDevices()).some(({ kind }) => kind === "videoinput"));
+  } catch {
+    camera = "missing"; // The page's own rules, or its browser's, keep it from asking.
+  }
+}
 
 let webGl2: boolean | null = null;
 function hasWebGl2(): boolean {

@@ -6,6 +6,7 @@ import {
   type DeviceReport,
   type Latency,
   lookAtDevice,
+  lookForCamera,
   measureLatency,
 } from "../../runtime/device.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
@@ -31,14 +32,13 @@ export default function DeviceCheck() {
 function Body() {
   const [report, setReport] = useState<DeviceReport>(lookAtDevice);
   const [latency, setLatency] = useState<Latency | null>(null);
-  useEffect(
-    () =>
-      measureLatency(measured => {
-        setLatency(measured);
-        setReport(lookAtDevice());
-      }),
-    [],
-  );
+  useEffect(() => {
+    void lookForCamera();
+    return measureLatency(measured => {
+      setLatency(measured);
+      setReport(lookAtDevice());
+    });
+  }, []);
   return (
     <div className="stack device">
       <ul className="device-checks" aria-label={SAID.checks}>

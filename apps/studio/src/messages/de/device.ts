@@ -23,7 +23,7 @@ export const device = {
       "Die Seite arbeitet, bleibt aber ohne Netz nicht erhalten. adb reverse benutzen oder ein Zertifikat, dem " +
       "dieses Gerät vertraut.",
     headset: "Die Seite im Browser des Headsets öffnen.",
-    camera: "Diese Seite darf nicht nach einer Kamera fragen. Über https in einem Browser öffnen, der eine hat.",
+    camera: "Keine Kamera antwortet dieser Seite. Über https auf einem Gerät öffnen, das eine hat.",
     graphics:
       "Ohne sie wird die Zelle nicht gezeichnet. Hardwarebeschleunigung einschalten oder einen anderen Browser " +
       "nehmen.",
@@ -32,7 +32,7 @@ export const device = {
   latency: "Verzögerung, Stufe für Stufe",
   stages: { input: "Eingabe", render: "Zeichnen", link: "Verbindung", controller: "Takt der Steuerung" },
   notYet: {
-    input: "Zeiger bewegen",
+    input: "Berühren oder Zeiger bewegen",
     render: "Noch nichts gezeichnet",
     link: "Kein Server, kein Roboter",
     controller: "Kein Roboter verbunden",

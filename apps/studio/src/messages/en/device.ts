@@ -20,14 +20,14 @@ export const device = {
       "The page works, but is not kept for use without a network. Use adb reverse, or a certificate that this device " +
       "trusts.",
     headset: "Open the page in the headset's own browser.",
-    camera: "This page may not ask for a camera. Open it by https in a browser that has one.",
+    camera: "No camera answers this page. Open it by https on a device that has one.",
     graphics: "Without it the cell is not drawn. Switch hardware acceleration on, or use another browser.",
     socket: "No server answers: the page works by itself, without real controllers. Start npx twincell serve.",
   },
   latency: "Latency, stage by stage",
   stages: { input: "Input", render: "Render", link: "Link", controller: "Controller cycle" },
   notYet: {
-    input: "Move the pointer",
+    input: "Touch, or move the pointer",
     render: "Nothing drawn yet",
     link: "No server, no robot",
     controller: "No robot connected",
