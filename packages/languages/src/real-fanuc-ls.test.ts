@@ -5,6 +5,7 @@
 import { robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
 import { executeText, fanucLs } from "./index.ts";
+import { noticesOf, told as toldWith } from "./testing/brief.ts";
 
 const robot = robotById("fanuc_lrmate200id")!;
 /** Where the world of the controller counts from [m]: the height of joint 2. */
@@ -118,29 +119,13 @@ test("weaving changes the path and is refused with its line", () => {
   ).toBe('line 3: "WEAVE" is no statement of TP that is executed here.');
 });
 
-/** What a run does, a word a step: the place [mm] of a motion, a line and its value, a wait. */
-function told(answer: ReturnType<typeof executeText>): unknown {
-  if (answer.kind === "not-understood") return `line ${answer.faults[0]!.line}: ${answer.faults[0]!.sentence}`;
-  return answer.program.steps.map(step => {
-    switch (step.type) {
-      case "move": {
-        if (!("pose" in step.target)) return step.target.q.map(rad => Math.round((rad * 180e3) / Math.PI) / 1e3 + 0);
-        const [x, y, z] = step.target.pose.position;
-        return [x, y, z - ZERO_Z_M].map(m => Math.round(m * 1e6) / 1e3 + 0).join(" ");
-      }
-      case "set":
-        return `${step.signal}=${String(step.to)}`;
-      case "wait":
-        return `wait ${step.s}`;
-      case "wait-for":
-        return `until ${"signal" in step.when ? step.when.signal : "an expression"}`;
-      default:
-        return step.type;
-    }
-  });
-}
-const notices = (answer: ReturnType<typeof executeText>): unknown =>
-  answer.kind === "executed" && answer.notExecuted.map(({ line, sentence }) => `${line}: ${sentence}`);
+/** The place [mm] of a motion as the controller counts it, or its joint angles [°]. */
+const motion = ({ target }: MoveStep): unknown => {
+  if (!("pose" in target)) return target.q.map(rad => Math.round((rad * 180e3) / Math.PI) / 1e3 + 0);
+  const [x, y, z] = target.pose.position;
+  return [x, y, z - ZERO_Z_M].map(m => Math.round(m * 1e6) / 1e3 + 0).join(" ");
+};
+const told = (answer: ReturnType<typeof executeText>): unknown => toldWith(answer, motion);
 const joints = (number: number, deg: readonly number[]): string =>
   [
     `P[${number}]{`,
@@ -178,7 +163,7 @@ test("machine tending: the logic of a point is done when the point is reached, i
   const wanted = ["400 0 100", "door=true", "until DI[9]", "450 0 100", "DO[16]=false"];
   expect(told(run(english + leave))).toEqual(wanted);
   expect(told(run(german + leave))).toEqual(wanted);
-  expect(notices(run(english + leave))).toEqual([
+  expect(noticesOf(run(english + leave))).toEqual([
     expect.stringMatching(/: DB 5mm: what is done about the point is done when it is reached\.$/),
   ]);
 });
@@ -221,7 +206,7 @@ test("palletising: register values come from the backup's .va files; PR in joint
   // J3 is shown against the horizon: joint 3 is 30 − 20.
   expect(told(answer)).toEqual([[10, -20, 10, 0, -60, 0], "340.5 0 115", "381 0 115", "RO[2]=false"]);
   expect(answer.kind === "executed" && answer.program.steps[1]).toMatchObject({ speed: { mps: 0.25 } });
-  expect(notices(answer)).toEqual([]);
+  expect(noticesOf(answer)).toEqual([]);
 });
 
 test("what only the controller knows is named with its line: a motion to it is left out, and what counts from there too", () => {
@@ -246,7 +231,7 @@ test("what only the controller knows is named with its line: a motion to it is l
     ]),
   );
   expect(told(answer)).toEqual(["400 0 100", "430 0 95", "430 0 95", [0, 0, 0, 0, -90, 0]]);
-  expect(notices(answer)).toEqual([
+  expect(noticesOf(answer)).toEqual([
     "3: PR[4] (PARK) is in none of the files: the motion is not executed.",
     "4: Where the robot stands before it is not known: the motion is not executed.",
     "5: The speed of line 5 is in none of the files: it is planned at 10 mm/s.",

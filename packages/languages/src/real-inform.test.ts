@@ -2,9 +2,10 @@
  * What jobs of a shop floor hold beside plain motions: stations, variables, arguments, searches, jobs of other files.
  * Every job is written for this test; the positions that are expected are worked out by hand.
  */
-import { robotById } from "@twincell/core";
+import { robotById, type MoveStep } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { executeText, informDialect } from "./index.ts";
+import { noticesOf, told as toldWith } from "./testing/brief.ts";
 
 const robot = robotById("yaskawa_gp8")!;
 const dialect = informDialect({ examplePulses: true });
@@ -28,29 +29,13 @@ const job = (name: string, positions: readonly string[], ...lines: readonly stri
 const RECTAN = ["///TOOL 0", "///POSTYPE BASE", "///RECTAN", "///RCONF 0,0,0,0,0,0,0,0"];
 const run = (text: string, inputs: Readonly<Record<string, boolean>> = {}): ReturnType<typeof executeText> =>
   executeText(dialect, text, "cell", robot, undefined, { inputs, missingPrograms: "leave-out" });
-/** A word a step: the place [mm] or the joint angles of a motion, a line and its value, a wait. */
-function told(answer: ReturnType<typeof executeText>): unknown {
-  if (answer.kind === "not-understood") return `line ${answer.faults[0]!.line}: ${answer.faults[0]!.sentence}`;
-  return answer.program.steps.map(step => {
-    switch (step.type) {
-      case "move": {
-        if (!("pose" in step.target)) return step.target.q.map(rad => Math.round((rad * 180e2) / Math.PI) / 1e2 + 0);
-        const [x, y, z] = step.target.pose.position;
-        return [x, y, z - ZERO_Z_M].map(m => Math.round(m * 1e5) / 1e2 + 0).join(" ");
-      }
-      case "set":
-        return `${step.signal}=${String(step.to)}`;
-      case "wait":
-        return `wait ${step.s}`;
-      case "wait-for":
-        return `until ${"signal" in step.when ? step.when.signal : "an expression"}`;
-      default:
-        return step.type;
-    }
-  });
-}
-const notices = (answer: ReturnType<typeof executeText>): readonly string[] =>
-  answer.kind === "executed" ? answer.notExecuted.map(({ line, sentence }) => `${line}: ${sentence}`) : [];
+/** The place [mm] of a motion as the controller counts it, or its joint angles [°]. */
+const motion = ({ target }: MoveStep): unknown => {
+  if (!("pose" in target)) return target.q.map(rad => Math.round((rad * 180e2) / Math.PI) / 1e2 + 0);
+  const [x, y, z] = target.pose.position;
+  return [x, y, z - ZERO_Z_M].map(m => Math.round(m * 1e5) / 1e2 + 0).join(" ");
+};
+const told = (answer: ReturnType<typeof executeText>): unknown => toldWith(answer, motion);
 
 describe("jobs as they are written", () => {
   test("machine tending: pulses with the robot's own data, a station that is named, jobs of other files with arguments", () => {
@@ -92,7 +77,7 @@ describe("jobs as they are written", () => {
       [0, 10, -10, 0, -90, 0],
       "og_2=5",
     ]);
-    expect(notices(answer)).toEqual([
+    expect(noticesOf(answer)).toEqual([
       "16: Line 16 is shown, not executed: the arc of a welding torch is switched.",
       "17: Further axes go with the motion of line 17 and are not moved: EC000.",
     ]);
@@ -117,13 +102,13 @@ describe("jobs as they are written", () => {
     );
     const answer = run(text);
     expect(told(answer)).toEqual(["400 0 200", "450 50 275", "450 50 300", "450 50 275", expect.anything()]);
-    expect(notices(answer)).toEqual(
+    expect(noticesOf(answer)).toEqual(
       [
         expect.stringMatching(/: I010 is in none of the files: it is taken as 0\.$/),
         expect.stringMatching(/: The speed of line [0-9]+ is in none of the files: it is planned at 100 mm\/s\.$/),
         expect.stringMatching(/: D001 is in none of the files: it is taken as 0\.$/),
         expect.stringMatching(/this robot does not reach|nearest posture|not reach/),
-      ].slice(0, notices(answer).length),
+      ].slice(0, noticesOf(answer).length),
     );
   });
 
@@ -144,7 +129,7 @@ describe("jobs as they are written", () => {
     );
     const answer = run(text);
     expect(told(answer)).toEqual(["400 0 200", "wait 1.5", "wait 0.2"]);
-    expect(notices(answer)).toEqual([
+    expect(noticesOf(answer)).toEqual([
       "15: P010 is in none of the files: the motion is not executed.",
       "16: P010 is in none of the files: the motion is not executed.",
       "19: What the macro MJ#(2) ARGF2.4 does, motions too, is not executed.",

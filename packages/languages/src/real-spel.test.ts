@@ -2,34 +2,20 @@
  * What programs of RC+ hold beside plain motions: point files, Jump, pallets, Till, memory bits, labels, other tasks.
  * Every program is written for this test; the positions that are expected are worked out by hand.
  */
-import { robotById } from "@twincell/core";
+import { robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
 import { executeText, spel } from "./index.ts";
+import { noticesOf, told as toldWith } from "./testing/brief.ts";
 
 const robot = robotById("epson_c4_a601s")!;
 const run = (text: string, inputs: Readonly<Record<string, boolean | number>> = {}): ReturnType<typeof executeText> =>
   executeText(spel, text, "cell", robot, undefined, { inputs, missingPrograms: "leave-out" });
-function told(answer: ReturnType<typeof executeText>): unknown {
-  if (answer.kind === "not-understood") return `line ${answer.faults[0]!.line}: ${answer.faults[0]!.sentence}`;
-  return answer.program.steps.map(step => {
-    switch (step.type) {
-      case "move": {
-        if (!("pose" in step.target)) return step.target.q.map(rad => Math.round((rad * 180e2) / Math.PI) / 1e2 + 0);
-        return `${step.path} ${step.target.pose.position.map(m => Math.round(m * 1e5) / 1e2 + 0).join(" ")}`;
-      }
-      case "set":
-        return `${step.signal}=${String(step.to)}`;
-      case "wait":
-        return `wait ${step.s}`;
-      case "wait-for":
-        return `until ${"signal" in step.when ? step.when.signal : "an expression"}`;
-      default:
-        return step.type;
-    }
-  });
-}
-const notices = (answer: ReturnType<typeof executeText>): readonly string[] =>
-  answer.kind === "executed" ? answer.notExecuted.map(({ line, sentence }) => `${line}: ${sentence}`) : [];
+/** The path and place [mm] of a motion, or its joint angles [°]. */
+const motion = ({ path, target }: MoveStep): unknown =>
+  "pose" in target
+    ? `${path} ${target.pose.position.map(m => Math.round(m * 1e5) / 1e2 + 0).join(" ")}`
+    : target.q.map(rad => Math.round((rad * 180e2) / Math.PI) / 1e2 + 0);
+const told = (answer: ReturnType<typeof executeText>): unknown => toldWith(answer, motion);
 const points = (
   ...taught: readonly (readonly [number: number, label: string, x: number, y: number, z: number])[]
 ): string =>
@@ -85,7 +71,7 @@ test("pick and place: points by number and label from the point file, Jump over 
     "lin 350 -50 280",
     "lin 360 -70 280",
   ]);
-  expect(notices(answer)).toEqual([
+  expect(noticesOf(answer)).toEqual([
     "3: Line 3 is shown, not executed: errors and interrupts are looked after.",
     "6: Line 6: what is done during the motion is done when it is over.",
     "6: Line 6: Jump is executed as up, across and down; its arch is not.",
@@ -136,7 +122,7 @@ test("what only the controller knows is left out with its line, and what counts 
   ].join("\n");
   const answer = run(text);
   expect(told(answer)).toEqual(["ptp 350 0 250", "ptp 350 50 250"]);
-  expect(notices(answer)).toEqual([
+  expect(noticesOf(answer)).toEqual([
     "10: Line 10 is shown, not executed: another device is spoken to.",
     "2: p5 is in none of the files: the motion is not executed.",
     "3: Where the robot stands before it is not known: the motion is not executed.",

@@ -1,12 +1,12 @@
 import { CellCollider } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
-import { verifyCertificate, type CertificateVerdict, type MotionCertificate } from "../collision/certificate.ts";
+import { verifyCertificate, type MotionCertificate } from "../collision/certificate.ts";
 import { marginOf } from "../collision/motion.ts";
 import type { Robot } from "../model/robot.ts";
 import { layOutProgram } from "../trajectory/layout.ts";
 import type { Plan } from "../trajectory/plan.ts";
 import { samplePlan } from "../trajectory/sample.ts";
-import { verifyCorner, type CornerCertificate } from "./corner-certificate.ts";
+import { SAME_TIME_S, verifyCorner, type CornerCertificate, type RefutedClaim } from "./corner-certificate.ts";
 import { cornersOf, type PassedCorner } from "./corners.ts";
 import { GraspedParts, type Stretch } from "./grasped-parts.ts";
 import { motionOf } from "./segment-motion.ts";
@@ -41,18 +41,7 @@ export type ProgramCertificateVerdict =
       readonly start_s: number;
       readonly of: "motion" | "corner";
     }
-  /** A claim that does not hold, or is less than the margin. */
-  | {
-      readonly kind: "refuted";
-      readonly step: string;
-      readonly reason: Extract<CertificateVerdict, { kind: "refuted" }>["reason"] | "below margin";
-      readonly a: string;
-      readonly b: string;
-      readonly at_s: number;
-    };
-
-/** Segments start at the same time when they differ by less [s]. */
-const SAME_TIME_S = 1e-9;
+  | RefutedClaim;
 
 /**
  * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of

@@ -17,20 +17,23 @@ export interface CornerCertificate {
   readonly pieces: readonly CornerPiece[];
 }
 
+/** A claim that does not hold, or is less than the margin. */
+export interface RefutedClaim {
+  readonly kind: "refuted";
+  readonly step: string;
+  readonly reason: Extract<CertificateVerdict, { kind: "refuted" }>["reason"] | "below margin";
+  readonly a: string;
+  readonly b: string;
+  readonly at_s: number;
+}
+
 export type CornerCertificateVerdict =
   | { readonly kind: "confirmed"; readonly looks: number }
   | { readonly kind: "missing"; readonly step: string; readonly start_s: number; readonly of: "corner" }
-  | {
-      readonly kind: "refuted";
-      readonly step: string;
-      readonly reason: Extract<CertificateVerdict, { kind: "refuted" }>["reason"] | "below margin";
-      readonly a: string;
-      readonly b: string;
-      readonly at_s: number;
-    };
+  | RefutedClaim;
 
-/** Certificates are about the same corner when they differ by less [s]. */
-const SAME_TIME_S = 1e-9;
+/** Certificates are about the same motion or corner when their times differ by less [s]. */
+export const SAME_TIME_S = 1e-9;
 
 /**
  * Proves the certificate of one corner again: that its pieces cover it, that each of them claims enough for all chords

@@ -3,7 +3,7 @@ export * from "./check.ts";
 export * from "./certificate.ts";
 export * from "./certificate-file.ts";
 export type { CornerArea } from "./corner-area.ts";
-export type { CornerCertificate } from "./corner-certificate.ts";
+export type { CornerCertificate, RefutedClaim } from "./corner-certificate.ts";
 export type { CornerPiece } from "./corners.ts";
 export * from "./detour.ts";
 export { keptSentence } from "./collision.ts";
